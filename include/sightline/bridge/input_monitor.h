@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+namespace sightline::bridge {
+
+/// What became of the messages of one input: counts what was used and what was dropped with the
+/// last reason, logs a drop once every 10 s, and shows it all in diagnostics.
+class InputMonitor {
+ public:
+  /// Registers with the updater, which has to live as long.
+  InputMonitor(std::string topic, diagnostic_updater::Updater& updater);
+
+  void accept() { ++accepted_; }
+  void drop(const std::string& reason);
+
+  std::size_t accepted() const { return accepted_; }
+  std::size_t dropped() const { return dropped_; }
+
+ private:
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  std::string topic_;
+  std::size_t accepted_ = 0;
+  std::size_t dropped_ = 0;
+  std::size_t dropped_before_ = 0;  // at the last report
+  std::string last_reason_;
+};
+
+}  // namespace sightline::bridge

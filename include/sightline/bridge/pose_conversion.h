@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
+#include <boost/array.hpp>
+
+#include "sightline/geometry/pose2.h"
+
+namespace sightline::bridge {
+
+/// Yaw and position of a pose or transform that lies in the plane; what tilt it has is left out.
+geometry::Pose2 toPose2(const geometry_msgs::Pose& pose);
+geometry::Pose2 toPose2(const geometry_msgs::Transform& transform);
+
+geometry_msgs::Pose toPose(const geometry::Pose2& pose);
+geometry_msgs::Transform toTransform(const geometry::Pose2& pose);
+geometry_msgs::Quaternion toQuaternion(double yaw);
+
+/// Covariance of (x, y, yaw) in the 6x6 of ROS, row-major at [0] [7] [35], cross terms filled, the
+/// rest zero.
+boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance);
+Eigen::Matrix3d toCovariance3(const boost::array<double, 36>& covariance);
+
+/// How a planar sensor sits on its carrier.
+struct Mounting {
+  geometry::Pose2 T_base_sensor;
+  bool upside_down = false;  ///< scans have to be read with ScanReader::setUpsideDown
+};
+/// From the transform that takes points of the sensor's frame to the base frame.
+Mounting mountingOf(const geometry_msgs::Transform& T_base_sensor);
+
+}  // namespace sightline::bridge

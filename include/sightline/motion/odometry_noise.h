@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sightline/config/fields.h"
+#include "sightline/geometry/pose2.h"
+
+namespace sightline::motion {
+
+/// How wheels err (jensfelt section 4.1 and appendix). Defaults are his: one scale error a run,
+/// drawn about 1.006 with 1 %; heading drifts by 0.6° a metre and by 0.1 % of the steering, each
+/// with a bias and a spread of that size.
+///
+/// A step of odometry is (length driven d, turn a). What really happened is
+///   length  s·d (1 + ε_d),                        ε_d ~ N(0, distance_sigma² / d): white over the
+///   way turn    (1 + steering_bias) a + heading_bias_per_metre·d + noise of variance
+///           heading_sigma_per_metre²·d + steering_sigma²·|a|
+/// The spreads are random walks: `..._per_metre` is the standard deviation after the first metre,
+/// and grows with the square root of the way, so that the result does not depend on how the way is
+/// cut into steps.
+struct OdometryNoise {
+  double scale_mean = 1.006;     ///< true length over measured length, mean over runs
+  double scale_sigma = 0.01;     ///< its standard deviation over runs
+  double distance_sigma = 0.01;  ///< white part, after one metre [m]
+  double lateral_sigma = 0.005;  ///< sideways slip, after one metre [m]
+  double heading_bias_per_metre = 0.0104719755;   ///< 0.6° [rad/m]
+  double heading_sigma_per_metre = 0.0104719755;  ///< 0.6° after one metre [rad]
+  double steering_bias = 0.001;                   ///< share of the turn
+  double steering_sigma = 0.001;                  ///< after one radian of turn, share of it [rad]
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// The step as the model expects it to have happened: biases taken out, scale applied.
+geometry::Pose2 expectedStep(const OdometryNoise& noise, const geometry::Pose2& measured,
+                             double scale);
+
+/// Covariance, in the body frame at the start of the step, of what the model leaves unknown of one
+/// step (scale apart).
+Eigen::Matrix3d stepCovariance(const OdometryNoise& noise, const geometry::Pose2& step);
+
+}  // namespace sightline::motion

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "sightline/geometry/pose2.h"
+
+namespace sightline::motion {
+
+struct StampedPose2 {
+  std::int64_t stamp = 0;  ///< nanoseconds
+  geometry::Pose2 pose;
+};
+
+/// Poses in the order of their stamps, read at any time between them by constant body velocity.
+class PoseHistory {
+ public:
+  /// Keeps poses this long behind the newest [ns].
+  explicit PoseHistory(std::int64_t length = 10'000'000'000) : length_(length) {}
+
+  /// A pose at or before the newest stamp starts the history anew: the clock was set back.
+  void add(std::int64_t stamp, const geometry::Pose2& pose);
+  void clear() { poses_.clear(); }
+  bool empty() const { return poses_.empty(); }
+  std::int64_t oldest() const { return poses_.front().stamp; }
+  std::int64_t newest() const { return poses_.back().stamp; }
+
+  /// Nothing outside [oldest, newest].
+  std::optional<geometry::Pose2> at(std::int64_t stamp) const;
+
+ private:
+  std::int64_t length_;
+  std::deque<StampedPose2> poses_;
+};
+
+}  // namespace sightline::motion

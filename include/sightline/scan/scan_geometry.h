@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace sightline::scan {
+
+/// A scan, or the description of one, that cannot be used. what() names the fault.
+class InvalidScan : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What all scans of a sensor share: where its beams point and when, and what it can see.
+/// Immutable, shared between scans, so that the trigonometry is done once.
+///
+/// Angles in radians from the sensor's x axis, counter-clockwise, strictly monotonic in either
+/// sense, less than one turn apart from first to last; time offsets in seconds after the stamp of
+/// the scan; range limits in metres with 0 ≤ range_min < range_max (range_max may be infinite).
+class ScanGeometry {
+ public:
+  /// Throws InvalidScan.
+  ScanGeometry(std::vector<double> angles, std::vector<double> time_offsets, double range_min,
+               double range_max);
+
+  /// The usual planar scanner. Throws InvalidScan, also on no beams and on an increment of zero or
+  /// NaN (one beam may have any increment).
+  static std::shared_ptr<const ScanGeometry> uniform(double angle_min, double angle_increment,
+                                                     std::size_t beams, double time_increment,
+                                                     double range_min, double range_max);
+
+  std::size_t beams() const { return angles_.size(); }
+  const std::vector<double>& angles() const { return angles_; }
+  const std::vector<double>& cosines() const { return cosines_; }
+  const std::vector<double>& sines() const { return sines_; }
+  const std::vector<double>& timeOffsets() const { return time_offsets_; }
+  double rangeMin() const { return range_min_; }
+  double rangeMax() const { return range_max_; }
+  /// Mean angle from one beam to the next; negative for a sensor that scans clockwise; 0 for a
+  /// single beam.
+  double angleIncrement() const { return angle_increment_; }
+  /// Whether the last beam is the first one's neighbour, so that a wall may cross the seam.
+  bool isFullCircle() const;
+
+ private:
+  std::vector<double> angles_;
+  std::vector<double> cosines_;
+  std::vector<double> sines_;
+  std::vector<double> time_offsets_;
+  double range_min_;
+  double range_max_;
+  double angle_increment_;
+};
+
+}  // namespace sightline::scan

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sightline/config/node.h"
+#include "sightline/geometry/pose2.h"
+#include "sightline/geometry/segment.h"
+
+namespace sightline::world {
+
+/// A stretch of a wall, metres from the wall's start.
+struct Span {
+  double from = 0.0;
+  double to = 0.0;
+};
+
+/// One side of a room, in the map frame, with the inside of the room on its left.
+struct Wall {
+  std::string name;
+  geometry::Segment segment;
+  std::vector<Span>
+      spans;  ///< where the wall is really there, in order and apart; doors are left out already
+};
+
+/// A named room: a rectangle or a polygon, its walls counter-clockwise.
+struct Room {
+  std::string name;
+  geometry::Pose2 T_map_room;
+  std::vector<Wall> walls;
+
+  bool contains(const Eigen::Vector2d& point_map) const;
+  /// Distance to the nearest side; 0 inside.
+  double distance(const Eigen::Vector2d& point_map) const;
+};
+
+/// An opening through which two rooms meet.
+struct Door {
+  std::size_t rooms[2] = {0, 0};  ///< indices of the rooms
+  std::size_t walls[2] = {0, 0};  ///< index of the pierced wall in each of them
+  Eigen::Vector2d centre_map = Eigen::Vector2d::Zero();
+  double width = 0.0;     ///< [m]
+  bool threshold = true;  ///< whether wheels may slip on it (jensfelt section 4.3)
+};
+
+/// Rooms, walls and doors of a floor: what a pose is tracked against.
+///
+/// ```yaml
+/// rooms:
+///   office:
+///     size: [5.0, 3.0]              # m; a rectangle, centred on its pose
+///     pose: [12.0, 4.0, 0.1]        # m, m, rad: of the room in the map; default 0 0 0
+///     walls:                        # optional; a wall that is not named is there over its whole
+///     length
+///       north: {spans: [[0.0, 2.0], [2.5, 5.0]]}   # m from the wall's start, counter-clockwise
+///       round the room east: {open: true}          # no wall at all
+///   tower:
+///     polygon: [[0, 0], [4, 0], [3, 3], [0, 2]]    # m, counter-clockwise, in the room's frame;
+///     walls are 0, 1, 2, …
+/// doors:
+///   - {between: [office, tower], at: [14.5, 4.0], width: 0.9, threshold: true}   # m, in the map
+/// ```
+/// The walls of a rectangle are south, east, north and west: those at −y, +x, +y and −x of the
+/// room's own frame.
+class RoomMap {
+ public:
+  RoomMap() = default;
+  /// Throws config::Error with file, line and key.
+  explicit RoomMap(const config::Node& document);
+  static RoomMap readFile(const std::string& path) { return RoomMap(config::Node::readFile(path)); }
+
+  const std::vector<Room>& rooms() const { return rooms_; }
+  const std::vector<Door>& doors() const { return doors_; }
+  std::optional<std::size_t> find(const std::string& name) const;
+  /// The room that holds a point; where rooms overlap, `preferred` wins.
+  std::optional<std::size_t> roomAt(const Eigen::Vector2d& point_map,
+                                    std::optional<std::size_t> preferred = std::nullopt) const;
+  /// The room nearest to a point. The map has to hold one.
+  std::size_t nearestRoom(const Eigen::Vector2d& point_map) const;
+  /// The door between two rooms that is nearest to a point.
+  const Door* doorBetween(std::size_t a, std::size_t b, const Eigen::Vector2d& near_map) const;
+
+ private:
+  void addRoom(const std::string& name, const config::Node& node);
+  void addDoor(const config::Node& node);
+  std::size_t roomNamed(const config::Node& name) const;
+
+  std::vector<Room> rooms_;
+  std::vector<Door> doors_;
+};
+
+}  // namespace sightline::world

@@ -1,0 +1,82 @@
+#include "sightline/bridge/pose_conversion.h"
+
+#include <array>
+
+#include <Eigen/Geometry>
+
+namespace sightline::bridge {
+
+namespace {
+
+constexpr std::array<int, 3> kPlanar{0, 1, 5};  // x, y and yaw among the six
+
+Eigen::Matrix3d rotationOf(const geometry_msgs::Quaternion& q) {
+  return Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+}
+
+double yawOf(const geometry_msgs::Quaternion& q) {
+  const Eigen::Matrix3d rotation = rotationOf(q);
+  return std::atan2(rotation(1, 0), rotation(0, 0));
+}
+
+}  // namespace
+
+geometry::Pose2 toPose2(const geometry_msgs::Pose& pose) {
+  return {pose.position.x, pose.position.y, yawOf(pose.orientation)};
+}
+
+geometry::Pose2 toPose2(const geometry_msgs::Transform& transform) {
+  return {transform.translation.x, transform.translation.y, yawOf(transform.rotation)};
+}
+
+geometry_msgs::Quaternion toQuaternion(double yaw) {
+  geometry_msgs::Quaternion quaternion;
+  quaternion.z = std::sin(0.5 * yaw);
+  quaternion.w = std::cos(0.5 * yaw);
+  return quaternion;
+}
+
+geometry_msgs::Pose toPose(const geometry::Pose2& pose) {
+  geometry_msgs::Pose message;
+  message.position.x = pose.x();
+  message.position.y = pose.y();
+  message.orientation = toQuaternion(pose.theta());
+  return message;
+}
+
+geometry_msgs::Transform toTransform(const geometry::Pose2& pose) {
+  geometry_msgs::Transform message;
+  message.translation.x = pose.x();
+  message.translation.y = pose.y();
+  message.rotation = toQuaternion(pose.theta());
+  return message;
+}
+
+boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance) {
+  boost::array<double, 36> result;
+  result.fill(0.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      result[static_cast<std::size_t>(6 * kPlanar[row] + kPlanar[column])] =
+          covariance(row, column);
+    }
+  }
+  return result;
+}
+
+Eigen::Matrix3d toCovariance3(const boost::array<double, 36>& covariance) {
+  Eigen::Matrix3d result;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      result(row, column) =
+          covariance[static_cast<std::size_t>(6 * kPlanar[row] + kPlanar[column])];
+    }
+  }
+  return result;
+}
+
+Mounting mountingOf(const geometry_msgs::Transform& T_base_sensor) {
+  return {toPose2(T_base_sensor), rotationOf(T_base_sensor.rotation)(2, 2) < 0.0};
+}
+
+}  // namespace sightline::bridge

@@ -1,0 +1,150 @@
+#include "sightline/config/node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace sightline::config {
+
+Node::Node(YAML::Node yaml, std::string source, std::string key)
+    : yaml_(std::move(yaml)), source_(std::move(source)), key_(std::move(key)) {}
+
+namespace {
+
+template <class Load>
+Node loadDocument(const Load& load, const std::string& source) {
+  try {
+    return Node(load(), source);
+  } catch (const YAML::BadFile&) {
+    throw Error(source, 0, "", "no such file, or not readable");
+  } catch (const YAML::ParserException& error) {
+    throw Error(source, error.mark.line + 1, "", "not YAML: " + error.msg);
+  }
+}
+
+}  // namespace
+
+Node Node::readFile(const std::string& path) {
+  if (std::filesystem::is_directory(path)) throw Error(path, 0, "", "is a folder, not a file");
+  return loadDocument([&] { return YAML::LoadFile(path); }, path);
+}
+
+Node Node::parse(const std::string& text, const std::string& source) {
+  return loadDocument([&] { return YAML::Load(text); }, source);
+}
+
+bool Node::isMap() const {
+  return yaml_.IsMap();
+}
+
+bool Node::has(const std::string& key) const {
+  return yaml_.IsMap() && yaml_[key].IsDefined();
+}
+
+Node Node::at(const std::string& key) const {
+  if (!yaml_.IsMap()) fail(fmt::format("expected a map with the key '{}'", key));
+  const YAML::Node value = yaml_[key];
+  if (!value.IsDefined()) fail(fmt::format("missing key '{}'", key));
+  return {value, source_, key_.empty() ? key : key_ + "." + key};
+}
+
+std::vector<std::pair<std::string, Node>> Node::entries() const {
+  if (!yaml_.IsMap()) fail("expected a map");
+  std::vector<std::pair<std::string, Node>> entries;
+  for (const auto& entry : yaml_) {
+    const auto key = Node(entry.first, source_, key_).text();
+    entries.emplace_back(key, Node(entry.second, source_, key_.empty() ? key : key_ + "." + key));
+  }
+  return entries;
+}
+
+std::vector<Node> Node::items() const {
+  if (!yaml_.IsSequence()) fail("expected a sequence");
+  std::vector<Node> items;
+  for (std::size_t i = 0; i < yaml_.size(); ++i) {
+    items.emplace_back(yaml_[i], source_, fmt::format("{}[{}]", key_, i));
+  }
+  return items;
+}
+
+void Node::allowOnly(std::initializer_list<const char*> keys) const {
+  for (const auto& [key, value] : entries()) {
+    const bool known = std::any_of(keys.begin(), keys.end(),
+                                   [&name = key](const char* allowed) { return name == allowed; });
+    if (!known) value.fail(fmt::format("unknown key; known are: {}", fmt::join(keys, ", ")));
+  }
+}
+
+template <class T>
+T Node::as(const char* expected) const {
+  if (!yaml_.IsScalar()) fail(fmt::format("expected {}", expected));
+  try {
+    return yaml_.as<T>();
+  } catch (const YAML::BadConversion&) {
+    fail(fmt::format("expected {}, found '{}'", expected, yaml_.Scalar()));
+  }
+}
+
+double Node::number(Range range) const {
+  const auto value = as<double>("a number");
+  if (!(value >= range.min && value <= range.max)) {
+    fail(fmt::format("{} is outside [{}, {}]", value, range.min, range.max));
+  }
+  return value;
+}
+
+int Node::integer(Range range) const {
+  const auto value = as<int>("a whole number");
+  if (value < range.min || value > range.max) {
+    fail(fmt::format("{} is outside [{}, {}]", value, range.min, range.max));
+  }
+  return value;
+}
+
+bool Node::flag() const {
+  return as<bool>("true or false");
+}
+
+std::string Node::text() const {
+  return as<std::string>("a text");
+}
+
+std::vector<double> Node::numbers() const {
+  std::vector<double> values;
+  for (const Node& item : items()) {
+    values.push_back(item.number());
+    if (!std::isfinite(values.back())) item.fail("has to be finite");
+  }
+  return values;
+}
+
+std::vector<double> Node::numbers(std::size_t count) const {
+  auto values = numbers();
+  if (values.size() != count)
+    fail(fmt::format("expected {} numbers, found {}", count, values.size()));
+  return values;
+}
+
+double Node::numberOr(const std::string& key, double fallback, Range range) const {
+  return has(key) ? at(key).number(range) : fallback;
+}
+
+std::string Node::textOr(const std::string& key, const std::string& fallback) const {
+  return has(key) ? at(key).text() : fallback;
+}
+
+void Node::fail(const std::string& reason) const {
+  // Nodes that do not come from a text carry a null mark.
+  const YAML::Mark mark = yaml_.IsDefined() ? yaml_.Mark() : YAML::Mark::null_mark();
+  throw Error(source_, mark.is_null() ? 0 : mark.line + 1, key_, reason);
+}
+
+std::string Node::path() const {
+  const std::filesystem::path written = text();
+  if (written.is_absolute()) return written.string();
+  return (std::filesystem::path(source_).parent_path() / written).lexically_normal().string();
+}
+
+}  // namespace sightline::config

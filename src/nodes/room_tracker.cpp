@@ -1,0 +1,11 @@
+#include <memory>
+
+#include <ros/node_handle.h>
+
+namespace sightline::nodes {
+
+std::shared_ptr<void> makeRoomTracker(ros::NodeHandle, ros::NodeHandle) {
+  return nullptr;
+}
+
+}  // namespace sightline::nodes
