@@ -72,10 +72,19 @@ Eigen::Matrix<double, 2, 3> transformJacobianPose(const Pose2& T_target_source,
   return jacobian;
 }
 
+PolarLine describedLike(const PolarLine& reference, const PolarLine& line) {
+  if (std::abs(wrapAngle(line.phi - reference.phi)) <= 0.5 * kPi) return line;
+  PolarLine turned = line;
+  turned.rho = -line.rho;
+  turned.phi = wrapAngle(line.phi + kPi);
+  turned.covariance(0, 1) = -line.covariance(0, 1);
+  turned.covariance(1, 0) = -line.covariance(1, 0);
+  return turned;
+}
+
 Eigen::Vector2d difference(const PolarLine& a, const PolarLine& b) {
-  const double turn = wrapAngle(a.phi - b.phi);
-  if (std::abs(turn) <= 0.5 * kPi) return {a.rho - b.rho, turn};
-  return {-a.rho - b.rho, wrapAngle(turn - kPi)};
+  const PolarLine like_b = describedLike(b, a);
+  return {like_b.rho - b.rho, wrapAngle(like_b.phi - b.phi)};
 }
 
 }  // namespace sightline::geometry

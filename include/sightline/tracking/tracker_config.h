@@ -1,0 +1,73 @@
+#pragma once
+
+#include "sightline/config/fields.h"
+#include "sightline/motion/odometry_noise.h"
+
+namespace sightline::tracking {
+
+enum class Method {
+  kFull,   ///< body-frame prediction, full covariances, odometry scale estimated
+  kPlain,  ///< jensfelt's own simpler choices: additive prediction, isotropic 50 mm, a floor on the uncertainty
+};
+
+/// The validation gates of jensfelt section 4.2.1.
+struct GateConfig {
+  double sigmas = 3.0;       ///< gate size in standard deviations of what is predicted
+  double max_opening = 1.0;  ///< [m]
+  double max_angle = 0.35;   ///< [rad]
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// The local range-weighted Hough transform of jensfelt section 4.2.
+struct HoughConfig {
+  double distance_bin = 0.04;    ///< [m]
+  double angle_bin = 0.0087266;  ///< 0.5° [rad]
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// What a wall has to show before it counts.
+struct WallConfig {
+  int min_beams = 8;
+  double min_length = 0.25;         ///< [m]
+  double position_sigma = 0.01;     ///< of a wall of the map [m]
+  double direction_sigma = 0.004;   ///< of a wall of the map [rad]
+  double max_nis = 16.0;            ///< of an update, 2 degrees of freedom
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// A step of the wheels that did not happen as reported is noticed by what the scanner sees, and tried again with this
+/// much more uncertainty.
+struct SlipConfig {
+  double min_quality = 0.6;         ///< below which a scan is tried again
+  double position_sigma = 0.15;     ///< [m]
+  double heading_sigma = 0.12;      ///< [rad]
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+struct TrackerConfig {
+  Method method = Method::kFull;
+  GateConfig gate;
+  HoughConfig hough;
+  WallConfig wall;
+  SlipConfig slip;
+  motion::OdometryNoise odometry = defaultOdometry();
+  double threshold_position_sigma = 0.1;    ///< added on passing a door, jensfelt section 4.3 [m]
+  double threshold_heading_sigma = 0.0349;  ///< 2° [rad]
+  double floor_position_sigma = 0.01;       ///< method plain, jensfelt section 4.3 [m]
+  double floor_heading_sigma = 0.0087;      ///< method plain [rad]
+  double plain_point_sigma = 0.05;          ///< method plain, jensfelt section 2 [m]
+  double degraded_position_sigma = 0.3;     ///< [m]
+  double degraded_heading_sigma = 0.0524;   ///< 3° [rad]
+  double lost_quality = 0.3;
+  int lost_scans = 10;
+
+  void visit(config::FieldVisitor& visitor);
+
+  /// Of a robot that nobody has measured: no biases, jensfelt's spreads.
+  static motion::OdometryNoise defaultOdometry();
+};
+
+}  // namespace sightline::tracking
