@@ -1,0 +1,135 @@
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sightline/world/world.h"
+
+namespace sightline::world {
+namespace {
+
+using testing::HasSubstr;
+
+World worldFrom(const std::string& text) {
+  return World(config::Node::parse(text, "w.yaml"));
+}
+
+std::string worldErrorOf(const std::string& text) {
+  try {
+    worldFrom(text);
+  } catch (const config::Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// A folder of its own for the files of one test.
+class WorldFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = std::filesystem::temp_directory_path() / "sightline_world_XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    const auto path = folder_ / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+    return path;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST(WorldFile, ReadsEveryKindOfThing) {
+  const World world = worldFrom(R"(
+materials: {wood: {reflectivity: 0.4}}
+walls: {height: 3.0}
+floor: {material: wood}
+ceiling: {height: 3.0}
+segments: [{from: [0, 0], to: [2, 0]}]
+boxes: [{centre: [1, 2], size: [1, 0.5], yaw: 1.5707963267948966, bottom: 0.7, top: 0.75, material: wood}]
+discs: [{centre: [3, 3], radius: 0.1, top: 0.7}]
+)");
+  ASSERT_EQ(world.segments().size(), 5u);
+  EXPECT_EQ(world.segments()[0].top, 3.0);
+  EXPECT_EQ(world.segments()[1].bottom, 0.7);
+  EXPECT_EQ(world.materials()[world.segments()[1].material].name, "wood");
+  ASSERT_EQ(world.discs().size(), 1u);
+  EXPECT_EQ(world.discs()[0].top, 0.7);
+  ASSERT_EQ(world.plates().size(), 4u) << "floor, ceiling, bottom and top of the box";
+  const auto hit = world.cast({{1.0, 0.5, 0.72}, {0.0, 1.0, 0.0}});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->range, 1.0, 1e-12) << "the turned box is 1 m long in y";
+}
+
+TEST(WorldFile, RayFromAboveMeetsTheTopOfABoxAndFromBelowItsBottom) {
+  const World world = worldFrom("boxes: [{centre: [0, 0], size: [1, 1], bottom: 0.5, top: 0.8}]");
+  EXPECT_NEAR(world.cast({{0.1, 0.1, 2.0}, {0.0, 0.0, -1.0}})->range, 1.2, 1e-12);
+  EXPECT_NEAR(world.cast({{0.1, 0.1, 0.0}, {0.0, 0.0, 1.0}})->range, 0.5, 1e-12);
+}
+
+TEST(WorldFile, EmptyMapIsAnEmptyWorld) {
+  EXPECT_TRUE(worldFrom("{}").segments().empty());
+}
+
+TEST(WorldFile, ErrorsNameFileLineAndKey) {
+  EXPECT_THAT(worldErrorOf("segments:\n  - {from: [0, 0]}"),
+              HasSubstr("w.yaml:2: segments[0]: missing key 'to'"));
+  EXPECT_THAT(worldErrorOf("segments:\n  - {from: [0, 0], to: [0, 0]}"), HasSubstr("same point"));
+  EXPECT_THAT(worldErrorOf("boxes:\n  - centre: [0, 0]\n    size: [-1, 2]"),
+              HasSubstr("w.yaml:3: boxes[0].size[0]: -1 is outside"));
+  EXPECT_THAT(worldErrorOf("boxes:\n  - centre: [0, 0]\n    size: [1]"),
+              HasSubstr("expected 2 numbers"));
+  EXPECT_THAT(worldErrorOf("discs:\n  - {centre: [0, 0], radius: 0}"),
+              HasSubstr("w.yaml:2: discs[0].radius: 0 is outside"));
+  EXPECT_THAT(worldErrorOf("discs:\n  - {centre: [0, x], radius: 1}"),
+              HasSubstr("discs[0].centre[1]: expected a number, found 'x'"));
+  EXPECT_THAT(worldErrorOf("discs:\n  - {centre: [0, 0], radius: 1, material: fog}"),
+              HasSubstr("w.yaml:2: discs[0].material: no material is called 'fog'"));
+  EXPECT_THAT(worldErrorOf("discs:\n  - {centre: [0, 0], radius: 1, bottom: 2, top: 1}"),
+              HasSubstr("bottom 2 m is not below top 1 m"));
+  EXPECT_THAT(worldErrorOf("materials:\n  fog: {reflectivity: -0.1}"),
+              HasSubstr("w.yaml:2: materials.fog.reflectivity: -0.1 is outside"));
+  EXPECT_THAT(worldErrorOf("ceiling: {material: plaster}"), HasSubstr("missing key 'height'"));
+  EXPECT_THAT(worldErrorOf("wall: {}"), HasSubstr("w.yaml:1: wall: unknown key"));
+  EXPECT_THAT(worldErrorOf("boxes: 3"), HasSubstr("w.yaml:1: boxes: expected a sequence"));
+  EXPECT_THAT(worldErrorOf("- 1"), HasSubstr("expected a map"));
+}
+
+TEST_F(WorldFiles, TakesItsWallsFromARoomsFile) {
+  write("rooms/two.yaml", R"(
+rooms:
+  left: {size: [4, 3], pose: [-2.05, 0, 0]}
+  right: {size: [4, 3], pose: [2.05, 0, 0]}
+doors: [{between: [left, right], at: [0, 0.5], width: 0.9}]
+)");
+  const World world =
+      World::readFile(write("worlds/two.yaml", "rooms: ../rooms/two.yaml\nwalls: {height: 2.2}"));
+  EXPECT_EQ(world.segments().size(), 12u) << "six whole walls, two cut in two, two jambs";
+  for (const WorldSegment& segment : world.segments()) EXPECT_EQ(segment.top, 2.2);
+  EXPECT_NEAR(world.cast({{-2.0, 0.5, 1.0}, {1.0, 0.0, 0.0}})->range, 6.05, 1e-12);
+}
+
+TEST_F(WorldFiles, IncludesFilesThatKnowItsMaterials) {
+  write("parts/table.yaml", "discs: [{centre: [1, 0], radius: 0.1, material: oak}]");
+  const auto world = World::readFile(
+      write("w.yaml", "materials: {oak: {reflectivity: 0.4}}\ninclude: [parts/table.yaml]"));
+  ASSERT_EQ(world.discs().size(), 1u);
+  EXPECT_EQ(world.materials()[world.discs()[0].material].name, "oak");
+}
+
+TEST_F(WorldFiles, RefusesToIncludeItselfOrWhatIsNotThere) {
+  write("a.yaml", "include: [b.yaml]");
+  const std::string b = write("b.yaml", "include: [a.yaml]");
+  EXPECT_THROW(World::readFile(b), config::Error);
+  const std::string c = write("c.yaml", "include: [missing.yaml]");
+  EXPECT_THROW(World::readFile(c), config::Error);
+  EXPECT_THROW(World::readFile((folder_ / "nowhere.yaml").string()), config::Error);
+}
+
+}  // namespace
+}  // namespace sightline::world
