@@ -30,7 +30,7 @@ void PoseFilter::predictFull(const Pose2& step) {
   const Pose2 moved = motion::expectedStep(config_.odometry, step, scale_);
   Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
   F.topLeftCorner<3, 3>() = geometry::composeJacobianFirst(pose_, moved);
-  F.topRightCorner<2, 1>() = pose_.rotation() * step.translation();
+  F.topRightCorner<2, 1>() = pose_.rotation() * moved.translation() / scale_;
   const Eigen::Matrix3d G = geometry::composeJacobianSecond(pose_);
   covariance_ = F * covariance_ * F.transpose();
   covariance_.topLeftCorner<3, 3>() +=

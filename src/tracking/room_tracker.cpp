@@ -29,6 +29,11 @@ struct Explanation {
   RoomFit fit;
 };
 
+// Beams that speak for an explanation less those that speak against it.
+long support(const RoomFit& fit) {
+  return static_cast<long>(fit.on_wall) - static_cast<long>(fit.beyond);
+}
+
 }  // namespace
 
 class RoomTracker::Impl {
@@ -50,7 +55,9 @@ class RoomTracker::Impl {
   Explanation explain(const PoseFilter& prior, const scan::Scan& scan, const Pose2& T_base_sensor,
                       const std::vector<BeamPoint>& points) const;
   Explanation explainBest(const scan::Scan& scan, const Pose2& T_base_sensor) const;
+  std::vector<WallIndex> wallsInSight() const;
   void applyWalls(PoseFilter& filter, std::vector<WallObservation>& walls) const;
+  bool contradictsPrediction(const Explanation& explanation) const;
   void changeRoom();
   TrackerState judge(const RoomFit& fit);
   TrackerUpdate report(const scan::Scan& scan, const Pose2& T_odom_base, Explanation explanation);
@@ -110,14 +117,48 @@ void RoomTracker::Impl::applyWalls(PoseFilter& filter, std::vector<WallObservati
   }
 }
 
+std::vector<WallIndex> RoomTracker::Impl::wallsInSight() const {
+  std::vector<std::size_t> rooms{room_};
+  if (config_.neighbours) {
+    for (const world::Door& door : map_.doors()) {
+      for (const std::size_t side : {0U, 1U}) {
+        const bool leads_there = door.rooms[1 - side] == room_;
+        const std::size_t other = door.rooms[side];
+        if (leads_there && std::find(rooms.begin(), rooms.end(), other) == rooms.end()) {
+          rooms.push_back(other);
+        }
+      }
+    }
+  }
+  std::vector<WallIndex> walls;
+  for (const std::size_t room : rooms) {
+    for (std::size_t wall = 0; wall < map_.rooms()[room].walls.size(); ++wall) {
+      walls.push_back({room, wall});
+    }
+  }
+  return walls;
+}
+
 Explanation RoomTracker::Impl::explain(const PoseFilter& prior, const scan::Scan& scan,
                                        const Pose2& T_base_sensor,
                                        const std::vector<BeamPoint>& points) const {
-  Explanation explanation{prior, finder_.find(prior, map_, room_, points), {}};
+  Explanation explanation{prior, finder_.find(prior, map_, wallsInSight(), points), {}};
   applyWalls(explanation.filter, explanation.walls);
   explanation.fit = fitToRoom(scan, explanation.filter.pose().mean * T_base_sensor,
                               map_.rooms()[room_], kWallTolerance);
   return explanation;
+}
+
+bool RoomTracker::Impl::contradictsPrediction(const Explanation& explanation) const {
+  const RoomFit& fit = explanation.fit;
+  if (fit.on_wall + fit.beyond >= kEvidence && fit.quality() < config_.slip.min_quality) return true;
+  // Walls well seen and yet refused: gates must not lock out for ever what contradicts a wrong prediction.
+  std::size_t accepted = 0;
+  std::size_t refused = 0;
+  for (const WallObservation& wall : explanation.walls) {
+    (wall.accepted ? accepted : refused) += wall.accepted_beams.size();
+  }
+  return refused > accepted;
 }
 
 Explanation RoomTracker::Impl::explainBest(const scan::Scan& scan,
@@ -125,15 +166,11 @@ Explanation RoomTracker::Impl::explainBest(const scan::Scan& scan,
   const double sigma = config_.method == Method::kPlain ? config_.plain_point_sigma : 0.0;
   const std::vector<BeamPoint> points = beamPoints(scan, T_base_sensor, sigma);
   Explanation as_predicted = explain(*filter_, scan, T_base_sensor, points);
-  const RoomFit& fit = as_predicted.fit;
-  if (fit.quality() >= config_.slip.min_quality || fit.on_wall + fit.beyond < kEvidence) {
-    return as_predicted;
-  }
+  if (!contradictsPrediction(as_predicted)) return as_predicted;
   PoseFilter slipped = *filter_;
   slipped.inflate(config_.slip.position_sigma, config_.slip.heading_sigma);
   Explanation as_slip = explain(slipped, scan, T_base_sensor, points);
-  const bool better =
-      as_slip.fit.quality() > fit.quality() && as_slip.fit.on_wall > fit.on_wall;
+  const bool better = support(as_slip.fit) > support(as_predicted.fit);
   return better ? as_slip : as_predicted;
 }
 

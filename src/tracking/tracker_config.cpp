@@ -46,6 +46,7 @@ motion::OdometryNoise TrackerConfig::defaultOdometry() {
 
 void TrackerConfig::visit(config::FieldVisitor& visitor) {
   visitor.choice("method", method, {"full", "plain"}, "full, or jensfelt's own simpler choices");
+  visitor.flag("neighbours", neighbours, "look for the walls of rooms behind a door too, not only for those of the current room");
   visitor.group("gate", gate);
   visitor.group("hough", hough);
   visitor.group("wall", wall);

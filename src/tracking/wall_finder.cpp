@@ -35,35 +35,35 @@ std::vector<fitting::NoisyPoint> toFitPoints(const std::vector<const BeamPoint*>
 
 }  // namespace
 
-std::vector<GatedWall> WallFinder::gate(const PoseFilter& filter, const world::Room& room,
+std::vector<GatedWall> WallFinder::gate(const PoseFilter& filter, const Walls& walls,
                                         const std::vector<BeamPoint>& points) const {
-  std::vector<GatedWall> walls;
-  walls.reserve(room.walls.size());
+  std::vector<GatedWall> gated;
+  gated.reserve(walls.size());
   const double sigma = typicalSigma(points);
-  for (const world::Wall& wall : room.walls) {
-    walls.push_back({ValidationGate(config_.gate, wall, config_.wall.position_sigma, filter.pose(), sigma), {}});
-    if (wall.spans.empty()) continue;
+  for (const world::Wall* wall : walls) {
+    gated.push_back({ValidationGate(config_.gate, *wall, config_.wall.position_sigma, filter.pose(), sigma), {}});
+    if (wall->spans.empty()) continue;
     for (const BeamPoint& point : points) {
-      if (walls.back().gate.contains(point)) walls.back().points.push_back(&point);
+      if (gated.back().gate.contains(point)) gated.back().points.push_back(&point);
     }
   }
-  return walls;
+  return gated;
 }
 
-PoseFilter WallFinder::refineByHough(const PoseFilter& predicted, const world::Room& room,
-                                     const std::vector<GatedWall>& walls) const {
-  const HoughPeaks peaks = hough_.transform(walls);
+PoseFilter WallFinder::refineByHough(const PoseFilter& predicted, const Walls& walls,
+                                     const std::vector<GatedWall>& gated) const {
+  const HoughPeaks peaks = hough_.transform(gated);
   PoseFilter refined = predicted;
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    if (!peaks.walls[i] || walls[i].points.size() < static_cast<std::size_t>(config_.wall.min_beams)) {
+  for (std::size_t i = 0; i < gated.size(); ++i) {
+    if (!peaks.walls[i] || gated[i].points.size() < static_cast<std::size_t>(config_.wall.min_beams)) {
       continue;
     }
-    PolarLine coarse = walls[i].gate.predicted();
+    PolarLine coarse = gated[i].gate.predicted();
     coarse.rho += peaks.walls[i]->distance;
     coarse.phi += peaks.turn;
     coarse.covariance << squared(config_.hough.distance_bin), 0.0, 0.0,
         squared(config_.hough.angle_bin);
-    refined.update(refined.innovation(geometry::canonical(coarse), room.walls[i].segment.line()));
+    refined.update(refined.innovation(geometry::canonical(coarse), walls[i]->segment.line()));
   }
   return refined;
 }
@@ -132,19 +132,23 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
 }
 
 std::vector<WallObservation> WallFinder::find(const PoseFilter& predicted,
-                                              const world::RoomMap& map, std::size_t room_index,
+                                              const world::RoomMap& map,
+                                              const std::vector<WallIndex>& indices,
                                               const std::vector<BeamPoint>& points) const {
-  const world::Room& room = map.rooms()[room_index];
-  const std::vector<GatedWall> first = gate(predicted, room, points);
-  const PoseFilter refined = refineByHough(predicted, room, first);
-  const std::vector<GatedWall> second = gate(refined, room, points);
-  std::vector<WallObservation> observations(room.walls.size());
-  for (std::size_t i = 0; i < room.walls.size(); ++i) {
-    observations[i].room = room_index;
-    observations[i].wall = i;
+  Walls walls;
+  for (const WallIndex& index : indices) {
+    walls.push_back(&map.rooms()[index.room].walls[index.wall]);
+  }
+  const std::vector<GatedWall> first = gate(predicted, walls, points);
+  const PoseFilter refined = refineByHough(predicted, walls, first);
+  const std::vector<GatedWall> second = gate(refined, walls, points);
+  std::vector<WallObservation> observations(walls.size());
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    observations[i].room = indices[i].room;
+    observations[i].wall = indices[i].wall;
     observations[i].gate = first[i].gate.size();
     observations[i].beams_in_gate = first[i].points.size();
-    fitWall(second[i], room.walls[i], refined.pose().mean.inverse(), observations[i]);
+    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), observations[i]);
   }
   return observations;
 }

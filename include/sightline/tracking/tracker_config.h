@@ -49,6 +49,7 @@ struct SlipConfig {
 
 struct TrackerConfig {
   Method method = Method::kFull;
+  bool neighbours = true;  ///< whether walls of rooms behind a door are looked for too
   GateConfig gate;
   HoughConfig hough;
   WallConfig wall;

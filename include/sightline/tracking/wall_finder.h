@@ -11,20 +11,28 @@
 
 namespace sightline::tracking {
 
-/// Finds the walls of one room in a scan: jensfelt section 4.2 and fig. 3, from gates to wall hypotheses.
+/// A wall of the map by its place there.
+struct WallIndex {
+  std::size_t room = 0;
+  std::size_t wall = 0;
+};
+
+/// Finds walls of a map in a scan: jensfelt section 4.2 and fig. 3, from gates to wall hypotheses.
 class WallFinder {
  public:
   explicit WallFinder(const TrackerConfig& config) : config_(config), hough_(config.hough) {}
 
-  /// One observation for each wall of the room, those without a fit not `accepted`. Innovation and NIS are left to the
-  /// filter. `room` is the index of the room in the map.
+  /// One observation for each wall asked for, those without a fit not `accepted`. Innovation and NIS are left to the
+  /// filter.
   std::vector<WallObservation> find(const PoseFilter& predicted, const world::RoomMap& map,
-                                    std::size_t room, const std::vector<BeamPoint>& points) const;
+                                    const std::vector<WallIndex>& walls,
+                                    const std::vector<BeamPoint>& points) const;
 
  private:
-  PoseFilter refineByHough(const PoseFilter& predicted, const world::Room& room,
-                           const std::vector<GatedWall>& walls) const;
-  std::vector<GatedWall> gate(const PoseFilter& filter, const world::Room& room,
+  using Walls = std::vector<const world::Wall*>;
+  PoseFilter refineByHough(const PoseFilter& predicted, const Walls& walls,
+                           const std::vector<GatedWall>& gated) const;
+  std::vector<GatedWall> gate(const PoseFilter& filter, const Walls& walls,
                               const std::vector<BeamPoint>& points) const;
   void fitWall(const GatedWall& gated, const world::Wall& wall, const geometry::Pose2& T_base_map,
                WallObservation& observation) const;
