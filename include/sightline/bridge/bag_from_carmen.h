@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "sightline/config/fields.h"
+#include "sightline/logs/carmen_log.h"
+
+namespace sightline::bridge {
+
+/// How a CARMEN log becomes a bag.
+struct CarmenBagOptions {
+  bool reverse_from_tv = false;  ///< repair odometry that counts forward while the robot backs
+  double odometry_delay = 0.0;   ///< [s] the odometry is stamped later by this
+  double laser_offset = 0.0;     ///< [m] of the laser ahead of base_link
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// What a bag was filled with.
+struct CarmenBagContents {
+  std::size_t scans = 0;
+  std::size_t odometry = 0;
+};
+
+/// Writes /scan, /odom and /tf (odom→base_link, base_link→laser) in the order of their stamps.
+///
+/// Scans are stamped with their ipc_time and taken as made at once, since CARMEN does not log how
+/// long a sweep takes. What lies at or beyond the range limit (of the line, of the parameter
+/// robot_front_laser_max, or else the 81 m from which on a SICK LMS reports faults) is +Inf; a
+/// reading of zero or less is NaN. The mounting is repeated with each odometry pose, so that the
+/// bag can be played from anywhere.
+///
+/// Throws config::Error where the log holds no scans, or has no velocity to repair its odometry
+/// from; rosbag::BagException where the file cannot be written.
+CarmenBagContents writeCarmenBag(const logs::CarmenLog& log, const CarmenBagOptions& options,
+                                 const std::string& path);
+
+}  // namespace sightline::bridge

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sightline/geometry/pose2.h"
+#include "sightline/logs/line_reader.h"
+
+/// Logs of the Carnegie Mellon robot navigation toolkit: one message a line.
+namespace sightline::logs {
+
+/// Velocity along the robot's heading [m/s], turning rate [rad/s].
+struct CarmenVelocity {
+  double translation = 0.0;
+  double rotation = 0.0;
+};
+
+/// FLASER (front laser, field of view by the number of beams) or ROBOTLASER1 (which states it).
+struct CarmenLaser {
+  std::int64_t stamp = 0;           ///< ipc_time [ns]
+  double angle_min = 0.0;           ///< [rad], from straight ahead
+  double angle_increment = 0.0;     ///< [rad]
+  std::optional<double> range_max;  ///< [m]; readings from here on are "nothing"
+  std::vector<float> ranges;        ///< [m] as logged
+  std::vector<float> remissions;    ///< empty or one a beam
+  geometry::Pose2 robot;            ///< in the odometry frame, as of the logger
+  std::optional<CarmenVelocity> velocity;
+};
+
+/// ODOM
+struct CarmenOdometry {
+  std::int64_t stamp = 0;  ///< ipc_time [ns]
+  geometry::Pose2 robot;   ///< in the odometry frame
+  CarmenVelocity velocity;
+};
+
+/// PARAM
+struct CarmenParameter {
+  std::string name;
+  std::string value;
+};
+
+using CarmenMessage = std::variant<CarmenLaser, CarmenOdometry, CarmenParameter>;
+
+/// One line of a log; nothing for comments and kinds that are not read. Throws config::Error with
+/// `source`, line number and kind where a line of a known kind cannot be understood.
+std::optional<CarmenMessage> parseCarmenLine(const std::string& line, const std::string& source,
+                                             int number);
+
+/// Reads a log, plain or gzip, message by message.
+class CarmenReader {
+ public:
+  /// Throws config::Error if the file cannot be opened.
+  explicit CarmenReader(const std::string& path) : lines_(path) {}
+
+  /// The next message that is read; nothing at the end, which is also where a log is cut off.
+  /// Throws config::Error; the lines after a bad one can still be read.
+  std::optional<CarmenMessage> next();
+
+  /// Where and how the log is cut off, empty if it is whole.
+  const std::string& cutOff() const { return cut_off_; }
+  /// How many lines there were of each kind that is not read.
+  const std::map<std::string, std::size_t>& skipped() const { return skipped_; }
+
+ private:
+  std::optional<CarmenMessage> parse();
+  void skip();
+  void sayCutOff(const std::string& sign);
+
+  LineReader lines_;
+  std::string line_;
+  std::string cut_off_;
+  std::map<std::string, std::size_t> skipped_;
+};
+
+/// A whole log, scans and odometry each in the order of their stamps.
+struct CarmenLog {
+  std::vector<CarmenLaser> scans;
+  std::vector<CarmenOdometry> odometry;
+  std::map<std::string, std::string> parameters;
+  std::map<std::string, std::size_t> skipped;  ///< lines of kinds that are not read
+  std::string cut_off;                         ///< where and how, empty if the log is whole
+};
+
+/// Throws config::Error.
+CarmenLog readCarmenLog(const std::string& path);
+
+}  // namespace sightline::logs
