@@ -4,8 +4,8 @@ namespace sightline::geometry {
 
 namespace {
 
-// Below this rotation the closed forms of exp and log lose digits to cancellation and their series
-// are exact to rounding.
+// Below this rotation the closed forms divide by nearly nothing, and their series are exact to
+// rounding.
 constexpr double kSmallAngle = 1e-4;
 
 // sin(θ)/θ and (1 − cos θ)/θ.
@@ -14,7 +14,9 @@ Eigen::Vector2d arcCoefficients(double theta) {
     const double square = theta * theta;
     return {1.0 - square / 6.0, 0.5 * theta * (1.0 - square / 12.0)};
   }
-  return {std::sin(theta) / theta, (1.0 - std::cos(theta)) / theta};
+  // Half the angle, because 1 − cos θ cancels.
+  const double half_sine = std::sin(0.5 * theta);
+  return {std::sin(theta) / theta, 2.0 * half_sine * half_sine / theta};
 }
 
 Eigen::Matrix2d rotationMatrix(double theta) {
@@ -79,9 +81,9 @@ Eigen::Matrix3d expRightJacobian(const Eigen::Vector3d& tangent) {
     jacobian(0, 2) = -0.5 * y + x * theta / 6.0;
     jacobian(1, 2) = 0.5 * x + y * theta / 6.0;
   } else {
-    const double square = theta * theta;
-    jacobian(0, 2) = (x * (theta - std::sin(theta)) - y * (1.0 - std::cos(theta))) / square;
-    jacobian(1, 2) = (x * (1.0 - std::cos(theta)) + y * (theta - std::sin(theta))) / square;
+    const double lag = (1.0 - k[0]) / theta;
+    jacobian(0, 2) = x * lag - y * k[1] / theta;
+    jacobian(1, 2) = x * k[1] / theta + y * lag;
   }
   return jacobian;
 }

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace sightline::test {
+
+/// Seeded normal noise.
+class Gauss {
+ public:
+  explicit Gauss(unsigned seed) : engine_(seed) {}
+
+  double operator()(double sigma = 1.0) { return sigma * normal_(engine_); }
+
+  /// Of a given covariance, which may be semidefinite.
+  template <int kSize>
+  Eigen::Matrix<double, kSize, 1> operator()(
+      const Eigen::Matrix<double, kSize, kSize>& covariance) {
+    const auto factor = covariance.ldlt();
+    Eigen::Matrix<double, kSize, 1> white;
+    for (int i = 0; i < kSize; ++i)
+      white[i] = (*this)(std::sqrt(std::max(0.0, factor.vectorD()[i])));
+    return factor.transpositionsP().transpose() * (factor.matrixL() * white);
+  }
+
+  double uniform(double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(engine_);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> normal_;
+};
+
+/// Mean and covariance of samples.
+template <int kSize>
+class Moments {
+ public:
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+
+  void add(const Vector& sample) {
+    ++count_;
+    const Vector before = sample - mean_;
+    mean_ += before / count_;
+    scatter_ += before * (sample - mean_).transpose();
+  }
+  Vector mean() const { return mean_; }
+  Matrix covariance() const { return scatter_ / (count_ - 1.0); }
+  double count() const { return count_; }
+
+ private:
+  double count_ = 0.0;
+  Vector mean_ = Vector::Zero();
+  Matrix scatter_ = Matrix::Zero();
+};
+
+/// Largest relative error of `sampled`, each entry measured by the standard deviations that belong
+/// to it: 0 where they are alike, whatever the units.
+template <int kSize>
+double relativeError(const Eigen::Matrix<double, kSize, kSize>& sampled,
+                     const Eigen::Matrix<double, kSize, kSize>& expected) {
+  const Eigen::Matrix<double, kSize, 1> sigma = expected.diagonal().cwiseSqrt();
+  return (sampled - expected).cwiseQuotient(sigma * sigma.transpose()).cwiseAbs().maxCoeff();
+}
+
+/// Squared error in units of the covariance (NEES).
+template <int kSize>
+double normalisedSquare(const Eigen::Matrix<double, kSize, 1>& error,
+                        const Eigen::Matrix<double, kSize, kSize>& covariance) {
+  return error.dot(covariance.ldlt().solve(error));
+}
+
+}  // namespace sightline::test
