@@ -47,6 +47,7 @@ class RoomTracker::Impl {
   void setPose(const geometry::UncertainPose2& T_map_base);
   void inflate(double position_sigma, double heading_sigma);
   bool setRoom(const std::string& name);
+  void restartClock();
   std::optional<TrackerUpdate> update(const scan::Scan& scan, const Pose2& T_odom_base,
                                       const Pose2& T_base_sensor);
 
@@ -76,9 +77,13 @@ void RoomTracker::Impl::setPose(const geometry::UncertainPose2& T_map_base) {
   filter_.emplace(config_, T_map_base);
   const Eigen::Vector2d position = T_map_base.mean.translation();
   room_ = map_.roomAt(position).value_or(map_.nearestRoom(position));
+  misfits_ = 0;
+  restartClock();
+}
+
+void RoomTracker::Impl::restartClock() {
   T_odom_base_.reset();
   stamp_ = 0;
-  misfits_ = 0;
 }
 
 void RoomTracker::Impl::inflate(double position_sigma, double heading_sigma) {
@@ -241,6 +246,8 @@ void RoomTracker::inflate(double position_sigma, double heading_sigma) {
 }
 
 bool RoomTracker::setRoom(const std::string& name) { return impl_->setRoom(name); }
+
+void RoomTracker::restartClock() { impl_->restartClock(); }
 
 std::optional<TrackerUpdate> RoomTracker::update(const scan::Scan& scan, const Pose2& T_odom_base,
                                                  const Pose2& T_base_sensor) {

@@ -51,6 +51,9 @@ class RoomTracker {
   /// Says which room the robot is in; false if no room has that name.
   bool setRoom(const std::string& name);
 
+  /// Forgets the stamp and the odometry of the last scan but keeps the pose: the clock was set back.
+  void restartClock();
+
   /// Takes one scan, with the sensor's motion filled in, and the odometry at its stamp. Scans of several sensors may
   /// come in turn. Nothing before the first pose, and nothing for a scan older than the last one used.
   std::optional<TrackerUpdate> update(const scan::Scan& scan, const geometry::Pose2& T_odom_base,

@@ -1,0 +1,151 @@
+#include "sightline/bridge/room_markers.h"
+
+#include <cmath>
+
+#include "sightline/bridge/pose_conversion.h"
+#include "sightline/bridge/time.h"
+#include "sightline/geometry/ellipse.h"
+
+namespace sightline::bridge {
+
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr float kWallWidth = 0.06F;
+
+std_msgs::ColorRGBA colour(float r, float g, float b, float a = 1.0F) {
+  std_msgs::ColorRGBA result;
+  result.r = r;
+  result.g = g;
+  result.b = b;
+  result.a = a;
+  return result;
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector2d& point, double height) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = height;
+  return message;
+}
+
+// Everything that one array of markers is drawn from.
+struct Scene {
+  const tracking::TrackerUpdate& update;
+  const world::RoomMap& map;
+  std_msgs::Header header;
+
+  Marker marker(const std::string& name, int type, double width) const {
+    Marker result;
+    result.header = header;
+    result.ns = name;
+    result.type = type;
+    result.action = Marker::ADD;
+    result.pose.orientation.w = 1.0;
+    result.scale.x = width;
+    result.scale.y = width;
+    return result;
+  }
+};
+
+Marker walls(const Scene& scene) {
+  Marker marker = scene.marker("walls", Marker::LINE_LIST, kWallWidth);
+  for (const world::Room& room : scene.map.rooms()) {
+    const bool current = room.name == scene.update.room;
+    const auto shade = current ? colour(1.0F, 0.75F, 0.1F) : colour(0.55F, 0.55F, 0.6F, 0.8F);
+    for (const world::Wall& wall : room.walls) {
+      for (const world::Span& span : wall.spans) {
+        const Eigen::Vector2d along = wall.segment.direction();
+        marker.points.push_back(toPoint(wall.segment.start + span.from * along, 0.0));
+        marker.points.push_back(toPoint(wall.segment.start + span.to * along, 0.0));
+        marker.colors.insert(marker.colors.end(), 2, shade);
+      }
+    }
+  }
+  return marker;
+}
+
+// A gate is drawn over the length of its wall, as the two edges of jensfelt fig. 4.
+void addGate(const Scene& scene, const tracking::WallObservation& observation, Marker& marker) {
+  const geometry::Segment& segment =
+      scene.map.rooms()[observation.room].walls[observation.wall].segment;
+  const Eigen::Vector2d normal = segment.leftNormal();
+  const double foot = segment.along(scene.update.pose.mean.translation());
+  const auto edge = [&](double along, double side) {
+    const double half = observation.gate.opening + std::abs(along - foot) * std::tan(observation.gate.angle);
+    return toPoint(segment.start + along * segment.direction() + side * half * normal, 0.02);
+  };
+  const double waist = std::min(std::max(foot, 0.0), segment.length());
+  for (const double side : {-1.0, 1.0}) {
+    for (const double end : {0.0, segment.length()}) {
+      marker.points.push_back(edge(waist, side));
+      marker.points.push_back(edge(end, side));
+    }
+  }
+}
+
+Marker gates(const Scene& scene) {
+  Marker marker = scene.marker("gates", Marker::LINE_LIST, 0.02);
+  marker.color = colour(0.3F, 0.8F, 1.0F, 0.8F);
+  for (const auto& wall : scene.update.walls) {
+    if (wall.beams_in_gate > 0) addGate(scene, wall, marker);
+  }
+  return marker;
+}
+
+Marker acceptedPoints(const Scene& scene, const scan::Scan& scan,
+                      const geometry::Pose2& T_base_sensor) {
+  Marker marker = scene.marker("accepted", Marker::POINTS, 0.07);
+  marker.color = colour(0.2F, 1.0F, 0.3F);
+  const geometry::Pose2 T_map_sensor = scene.update.pose.mean * T_base_sensor;
+  for (const auto& wall : scene.update.walls) {
+    if (!wall.accepted) continue;
+    for (const std::size_t beam : wall.accepted_beams) {
+      marker.points.push_back(toPoint(T_map_sensor * scan.point(beam), 0.05));
+    }
+  }
+  return marker;
+}
+
+Marker positionEllipse(const Scene& scene) {
+  const geometry::Ellipse ellipse =
+      geometry::covarianceEllipse(scene.update.pose.covariance.topLeftCorner<2, 2>());
+  // Thinner than this, rviz draws nothing.
+  constexpr double kThinnest = 0.02;
+  Marker marker = scene.marker("position 95 %", Marker::CYLINDER, 0.0);
+  marker.pose = toPose({scene.update.pose.mean.translation(), ellipse.angle});
+  marker.scale.x = std::max(2.0 * ellipse.major, kThinnest);
+  marker.scale.y = std::max(2.0 * ellipse.minor, kThinnest);
+  marker.scale.z = 0.01;
+  marker.color = colour(1.0F, 0.2F, 0.8F, 0.6F);
+  return marker;
+}
+
+Marker roomName(const Scene& scene) {
+  Marker marker = scene.marker("room", Marker::TEXT_VIEW_FACING, 0.0);
+  const geometry::Pose2& pose = scene.update.pose.mean;
+  marker.pose.position = toPoint(pose.translation() + Eigen::Vector2d(0.0, 0.6), 0.3);
+  marker.scale.z = 0.35;
+  marker.color = colour(1.0F, 1.0F, 1.0F);
+  marker.text = scene.update.room;
+  return marker;
+}
+
+}  // namespace
+
+visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& update,
+                                            const world::RoomMap& map, const scan::Scan& scan,
+                                            const geometry::Pose2& T_base_sensor,
+                                            const std::string& map_frame) {
+  Scene scene{update, map, {}};
+  scene.header.stamp = timeOf(update.stamp);
+  scene.header.frame_id = map_frame;
+  visualization_msgs::MarkerArray array;
+  array.markers = {walls(scene), gates(scene), acceptedPoints(scene, scan, T_base_sensor),
+                   positionEllipse(scene), roomName(scene)};
+  return array;
+}
+
+}  // namespace sightline::bridge

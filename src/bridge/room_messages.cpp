@@ -1,0 +1,74 @@
+#include "sightline/bridge/room_messages.h"
+
+#include "sightline/bridge/pose_conversion.h"
+#include "sightline/bridge/time.h"
+
+namespace sightline::bridge {
+
+geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const tracking::TrackerUpdate& update,
+                                                       const std::string& map_frame) {
+  geometry_msgs::PoseWithCovarianceStamped message;
+  message.header.stamp = timeOf(update.stamp);
+  message.header.frame_id = map_frame;
+  message.pose.pose = toPose(update.pose.mean);
+  message.pose.covariance = toCovariance6(update.pose.covariance);
+  return message;
+}
+
+namespace {
+
+WallStatus toWallStatus(const tracking::WallObservation& wall, const world::RoomMap& map) {
+  WallStatus message;
+  message.room = map.rooms()[wall.room].name;
+  message.wall = static_cast<std::uint32_t>(wall.wall);
+  message.gate_opening = wall.gate.opening;
+  message.gate_angle = wall.gate.angle;
+  message.beams_in_gate = static_cast<std::uint32_t>(wall.beams_in_gate);
+  message.beams_accepted = static_cast<std::uint32_t>(wall.accepted_beams.size());
+  message.accepted = wall.accepted;
+  message.innovation[0] = wall.innovation[0];
+  message.innovation[1] = wall.innovation[1];
+  message.nis = wall.nis;
+  return message;
+}
+
+}  // namespace
+
+TrackerStatus toStatusMessage(const tracking::TrackerUpdate& update, const world::RoomMap& map,
+                              const std::string& map_frame) {
+  TrackerStatus message;
+  message.header.stamp = timeOf(update.stamp);
+  message.header.frame_id = map_frame;
+  message.state = static_cast<std::uint8_t>(update.state);
+  message.quality = update.quality;
+  message.room = update.room;
+  message.covariance_valid = update.covariance_valid;
+  for (const auto& wall : update.walls) message.walls.push_back(toWallStatus(wall, map));
+  return message;
+}
+
+geometry_msgs::TransformStamped toMapOdom(const tracking::TrackerUpdate& update,
+                                          const std::string& map_frame,
+                                          const std::string& odom_frame) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = timeOf(update.stamp);
+  message.header.frame_id = map_frame;
+  message.child_frame_id = odom_frame;
+  message.transform = toTransform(update.T_map_odom);
+  return message;
+}
+
+nav_msgs::OccupancyGrid toGridMessage(const world::Occupancy& grid, const std::string& map_frame) {
+  nav_msgs::OccupancyGrid message;
+  message.header.frame_id = map_frame;
+  message.info.resolution = static_cast<float>(grid.resolution);
+  message.info.width = static_cast<std::uint32_t>(grid.width);
+  message.info.height = static_cast<std::uint32_t>(grid.height);
+  message.info.origin.position.x = grid.origin.x();
+  message.info.origin.position.y = grid.origin.y();
+  message.info.origin.orientation.w = 1.0;
+  message.data.assign(grid.cells.begin(), grid.cells.end());
+  return message;
+}
+
+}  // namespace sightline::bridge
