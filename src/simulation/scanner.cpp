@@ -1,0 +1,125 @@
+#include "sightline/simulation/scanner.h"
+
+#include <cmath>
+#include <limits>
+
+namespace sightline::simulation {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Eigen::Isometry3d inSpace(const geometry::Pose2& pose) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear().topLeftCorner<2, 2>() = pose.rotation();
+  result.translation().head<2>() = pose.translation();
+  return result;
+}
+
+const ScannerProfile& checked(const ScannerProfile& profile) {
+  profile.check("");
+  return profile;
+}
+
+double rounded(double value, double step) {
+  return step > 0.0 ? step * std::round(value / step) : value;
+}
+
+}  // namespace
+
+void Mounting::visit(config::FieldVisitor& visitor) {
+  visitor.number("x", x, {"m", {-100.0, 100.0}, "of the sensor on the robot, forward"});
+  visitor.number("y", y, {"m", {-100.0, 100.0}, "left"});
+  visitor.number("z", z, {"m", {0.0, 100.0}, "above the floor"});
+  const config::Range turn{-2.0 * geometry::kPi, 2.0 * geometry::kPi};
+  visitor.number("roll", roll, {"rad", turn, "about the robot's x axis; pi: upside down"});
+  visitor.number("pitch", pitch, {"rad", turn, "about the robot's y axis; positive looks down"});
+  visitor.number("yaw", yaw, {"rad", turn, "about the robot's z axis"});
+}
+
+Eigen::Isometry3d Mounting::T_base_sensor() const {
+  return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
+}
+
+Scanner::Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed)
+    : profile_(checked(profile)),
+      T_base_sensor_(mounting.T_base_sensor()),
+      geometry_(profile.geometry()),
+      sweep_duration_(std::llround(profile.sweepDuration() * 1e9)),
+      random_(randomStream(seed, 1)) {}
+
+scan::Scan Scanner::sweep(const world::World& world, std::int64_t stamp, const PoseAt& T_map_base) {
+  scan::Scan scan;
+  scan.geometry = geometry_;
+  scan.stamp = stamp;
+  scan.ranges.reserve(geometry_->beams());
+  scan.kinds.reserve(geometry_->beams());
+  for (std::size_t beam = 0; beam < geometry_->beams(); ++beam) {
+    const std::int64_t time = stamp + std::llround(geometry_->timeOffsets()[beam] * 1e9);
+    measureBeam(world, T_map_base(time), beam, scan);
+  }
+  scan::applyNoise(profile_.noise, scan);
+  return scan;
+}
+
+void Scanner::measureBeam(const world::World& world, const geometry::Pose2& T_map_base,
+                          std::size_t beam, scan::Scan& scan) {
+  const Eigen::Isometry3d T_map_sensor = inSpace(T_map_base) * T_base_sensor_;
+  const auto hit = lookNoisily(world, T_map_sensor, geometry_->angles()[beam]);
+  const double intensity = hit ? intensityOf(*hit, world.materials()[hit->material]) : 0.0;
+  double range = hit ? noisyRange(hit->range, intensity) : kInfinity;
+  if (hit && hit->range < profile_.range_min) range = -kInfinity;
+  if (profile_.dropout > 0.0 && 0.5 + uniform(0.5) < profile_.dropout) {
+    range = std::numeric_limits<double>::quiet_NaN();
+  }
+  scan.ranges.push_back(range);
+  scan.kinds.push_back(scan::classify(range, *geometry_));
+  if (profile_.intensity > 0.0) {
+    scan.intensities.push_back(scan.kinds.back() == scan::ReturnKind::kValid ? intensity : 0.0);
+  }
+}
+
+std::optional<world::Hit> Scanner::look(const world::World& world,
+                                        const Eigen::Isometry3d& T_map_sensor, double angle) const {
+  const Eigen::Vector3d direction_sensor(std::cos(angle), std::sin(angle), 0.0);
+  return world.cast({T_map_sensor.translation(), T_map_sensor.linear() * direction_sensor});
+}
+
+// The beam really leaves in a direction that is a little off the one it is reported for.
+std::optional<world::Hit> Scanner::lookNoisily(const world::World& world,
+                                               const Eigen::Isometry3d& T_map_sensor,
+                                               double angle) {
+  const scan::NoiseModel& noise = profile_.noise;
+  if (noise.kind == scan::NoiseKind::kUniform) {
+    return look(world, T_map_sensor, angle + uniform(noise.angle_half_width));
+  }
+  double sigma = noise.angular_sigma;
+  if (noise.kind == scan::NoiseKind::kIsotropic) {
+    const auto hit = look(world, T_map_sensor, angle);
+    if (!hit) return hit;
+    sigma = std::hypot(sigma, noise.sigma / hit->range);
+  }
+  return look(world, T_map_sensor, angle + sigma * normal_(random_));
+}
+
+// Lambert's law, and an optical gain that is held near to the sensor.
+double Scanner::intensityOf(const world::Hit& hit, const world::Material& material) const {
+  const double ratio = hit.range / profile_.intensity_half_range;
+  return profile_.intensity * material.reflectivity * hit.cos_incidence / (1.0 + ratio * ratio);
+}
+
+double Scanner::noisyRange(double range, double intensity) {
+  const scan::NoiseModel& noise = profile_.noise;
+  // The uniform error of a quantising scanner comes from rounding.
+  if (noise.kind == scan::NoiseKind::kUniform) return rounded(range, 2.0 * noise.range_half_width);
+  const double sigma = std::sqrt(noise.rangeVariance(range, intensity));
+  return rounded(range + sigma * normal_(random_), profile_.resolution);
+}
+
+double Scanner::uniform(double half_width) {
+  return std::uniform_real_distribution<double>(-half_width, half_width)(random_);
+}
+
+}  // namespace sightline::simulation
