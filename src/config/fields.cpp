@@ -12,21 +12,12 @@ std::string dotted(const std::vector<std::string>& path, const char* name) {
   return path.empty() ? name : fmt::format("{}.{}", fmt::join(path, "."), name);
 }
 
-std::string rangeText(const Range& range) {
-  const Range everything;
-  if (range.min == everything.min && range.max == everything.max) return "any";
-  if (range.max >= kPositive.max) {
-    if (range.min == kPositive.min) return "> 0";
-    return fmt::format(">= {}", range.min);
-  }
-  return fmt::format("[{}, {}]", range.min, range.max);
-}
-
 }  // namespace
 
 namespace detail {
 
 Reader::Reader(const Node& node, UnknownKeys unknown) : unknown_(unknown) {
+  if (!node.isMap() && !node.isNull()) node.fail("expected a map");
   levels_.push_back({node, node.isMap(), {}});
 }
 
@@ -76,8 +67,8 @@ void Reader::enter(const char* group) {
   const bool present = take(group);
   const Node& outer = levels_.back().node;
   const Node inner = present ? outer.at(group) : outer;
-  if (present && !inner.isMap()) inner.fail("expected a map");
-  levels_.push_back({inner, present, {}});
+  if (present && !inner.isMap() && !inner.isNull()) inner.fail("expected a map");
+  levels_.push_back({inner, present && inner.isMap(), {}});
 }
 
 void Reader::leave() {
@@ -99,9 +90,9 @@ void Reader::refuseUnknown(const Level& level) const {
 }
 
 void Validator::check(const char* name, double value, const Field& field) const {
-  if (value >= field.range.min && value <= field.range.max) return;
+  if (field.range.contains(value)) return;
   throw Error(source_, 0, dotted(path_, name),
-              fmt::format("{} is outside {}", value, rangeText(field.range)));
+              fmt::format("{} is outside {}", value, field.range.text()));
 }
 
 void Validator::number(const char* name, double& value, const Field& field) {
@@ -121,12 +112,12 @@ std::string Describer::keyOf(const char* name) const {
 }
 
 void Describer::number(const char* name, double& value, const Field& field) {
-  rows.push_back({keyOf(name), "double", fmt::format("{}", value), field.unit,
-                  rangeText(field.range), field.meaning});
+  rows.push_back({keyOf(name), "double", fmt::format("{}", value), field.unit, field.range.text(),
+                  field.meaning});
 }
 
 void Describer::integer(const char* name, int& value, const Field& field) {
-  rows.push_back({keyOf(name), "int", fmt::format("{}", value), field.unit, rangeText(field.range),
+  rows.push_back({keyOf(name), "int", fmt::format("{}", value), field.unit, field.range.text(),
                   field.meaning});
 }
 
@@ -140,7 +131,7 @@ void Describer::text(const char* name, std::string& value, const char* meaning) 
 
 void Describer::numbers(const char* name, std::vector<double>& values, const Field& field) {
   rows.push_back({keyOf(name), "list of double", fmt::format("[{}]", fmt::join(values, ", ")),
-                  field.unit, rangeText(field.range), field.meaning});
+                  field.unit, field.range.text(), field.meaning});
 }
 
 void Describer::option(const char* name, std::size_t& index,

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <set>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -16,27 +19,57 @@ namespace {
 template <class Load>
 Node loadDocument(const Load& load, const std::string& source) {
   try {
-    return Node(load(), source);
+    const std::vector<YAML::Node> documents = load();
+    if (documents.size() > 1) {
+      throw Error(source, documents[1].Mark().line + 1, "", "a second document; expected one");
+    }
+    return Node(documents.empty() ? YAML::Node() : documents.front(), source);
   } catch (const YAML::BadFile&) {
     throw Error(source, 0, "", "no such file, or not readable");
-  } catch (const YAML::ParserException& error) {
-    throw Error(source, error.mark.line + 1, "", "not YAML: " + error.msg);
+  } catch (const YAML::Exception& error) {
+    throw Error(source, error.mark.is_null() ? 0 : error.mark.line + 1, "",
+                "not YAML: " + error.msg);
   }
 }
 
 }  // namespace
 
+std::string Range::text() const {
+  const Range everything;
+  if (min == everything.min && max == everything.max) return "any";
+  if (max < kPositive.max) return fmt::format("[{}, {}]", min, max);
+  return min == kPositive.min ? "> 0" : fmt::format(">= {}", min);
+}
+
+Node& Node::operator=(const Node& other) {
+  yaml_.reset(other.yaml_);
+  source_ = other.source_;
+  key_ = other.key_;
+  return *this;
+}
+
 Node Node::readFile(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw Error(path, 0, "", "is a folder, not a file");
-  return loadDocument([&] { return YAML::LoadFile(path); }, path);
+  std::error_code unreadable;
+  if (std::filesystem::is_directory(path, unreadable)) {
+    throw Error(path, 0, "", "is a folder, not a file");
+  }
+  return loadDocument([&] { return YAML::LoadAllFromFile(path); }, path);
 }
 
 Node Node::parse(const std::string& text, const std::string& source) {
-  return loadDocument([&] { return YAML::Load(text); }, source);
+  return loadDocument([&] { return YAML::LoadAll(text); }, source);
 }
 
 bool Node::isMap() const {
   return yaml_.IsMap();
+}
+
+bool Node::isNull() const {
+  return yaml_.IsNull();
+}
+
+Node Node::child(const std::string& key, const YAML::Node& value) const {
+  return {value, source_, key_.empty() ? key : key_ + "." + key};
 }
 
 bool Node::has(const std::string& key) const {
@@ -45,17 +78,24 @@ bool Node::has(const std::string& key) const {
 
 Node Node::at(const std::string& key) const {
   if (!yaml_.IsMap()) fail(fmt::format("expected a map with the key '{}'", key));
-  const YAML::Node value = yaml_[key];
-  if (!value.IsDefined()) fail(fmt::format("missing key '{}'", key));
-  return {value, source_, key_.empty() ? key : key_ + "." + key};
+  std::optional<Node> found;
+  for (const auto& entry : yaml_) {
+    if (!entry.first.IsScalar() || entry.first.Scalar() != key) continue;
+    if (found) child(key, entry.second).fail("given twice");
+    found = child(key, entry.second);
+  }
+  if (!found) fail(fmt::format("missing key '{}'", key));
+  return *found;
 }
 
 std::vector<std::pair<std::string, Node>> Node::entries() const {
   if (!yaml_.IsMap()) fail("expected a map");
   std::vector<std::pair<std::string, Node>> entries;
+  std::set<std::string> keys;
   for (const auto& entry : yaml_) {
     const auto key = Node(entry.first, source_, key_).text();
-    entries.emplace_back(key, Node(entry.second, source_, key_.empty() ? key : key_ + "." + key));
+    entries.emplace_back(key, child(key, entry.second));
+    if (!keys.insert(key).second) entries.back().second.fail("given twice");
   }
   return entries;
 }
@@ -89,17 +129,14 @@ T Node::as(const char* expected) const {
 
 double Node::number(Range range) const {
   const auto value = as<double>("a number");
-  if (!(value >= range.min && value <= range.max)) {
-    fail(fmt::format("{} is outside [{}, {}]", value, range.min, range.max));
-  }
+  if (std::isnan(value)) fail("expected a number, found NaN");
+  if (!range.contains(value)) fail(fmt::format("{} is outside {}", value, range.text()));
   return value;
 }
 
 int Node::integer(Range range) const {
   const auto value = as<int>("a whole number");
-  if (value < range.min || value > range.max) {
-    fail(fmt::format("{} is outside [{}, {}]", value, range.min, range.max));
-  }
+  if (!range.contains(value)) fail(fmt::format("{} is outside {}", value, range.text()));
   return value;
 }
 

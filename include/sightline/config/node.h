@@ -16,19 +16,31 @@ namespace sightline::config {
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
+
+  bool contains(double value) const { return value >= min && value <= max; }
+  /// As it reads in messages and tables: `[0, 1]`, `> 0`, `>= 0`, `any`.
+  std::string text() const;
 };
 constexpr Range kPositive{std::numeric_limits<double>::min(), std::numeric_limits<double>::max()};
 constexpr Range kNotNegative{0.0, std::numeric_limits<double>::max()};
 
 /// A place in a YAML document that knows its file and key, so that whatever is wrong there can be
-/// said in full. Every accessor throws Error with file, line, key and the reason.
+/// said in full. Every accessor throws Error with file, line, key and the reason; a key that stands
+/// twice in one map is an error too.
 class Node {
  public:
   Node(YAML::Node yaml, std::string source, std::string key = "");
+  Node(const Node&) = default;
+  /// Makes this another place; YAML::Node would write the other's value into this one's document.
+  Node& operator=(const Node& other);
+
+  /// A file or text of one YAML document; an empty one is null.
   static Node readFile(const std::string& path);
   static Node parse(const std::string& text, const std::string& source);
 
   bool isMap() const;
+  /// Nothing written: an empty document, or a key without a value.
+  bool isNull() const;
   bool has(const std::string& key) const;
   /// The value of a key that has to be there.
   Node at(const std::string& key) const;
@@ -40,7 +52,7 @@ class Node {
   /// Refuses any key that is not listed: a typing error must not pass for a default.
   void allowOnly(std::initializer_list<const char*> keys) const;
 
-  /// Finite unless the range is infinite on that side.
+  /// Never NaN; finite unless the range is infinite on that side.
   double number(Range range = {}) const;
   int integer(Range range = {}) const;
   bool flag() const;
@@ -62,6 +74,7 @@ class Node {
  private:
   template <class T>
   T as(const char* expected) const;
+  Node child(const std::string& key, const YAML::Node& value) const;
 
   YAML::Node yaml_;
   std::string source_;
