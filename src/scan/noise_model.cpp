@@ -36,8 +36,9 @@ double NoiseModel::rangeVariance(double range, double intensity) const {
     case NoiseKind::kUniform:
       return range_half_width * range_half_width / 3.0;
     case NoiseKind::kIntensity: {
-      // No light, no knowledge: bounded so that a dark return keeps a finite, useless weight.
-      const double falling = intensity_sigma / std::max(intensity, 1e-6);
+      // No light, no knowledge: bounded so that a dark return, or one whose intensity is not a
+      // number, keeps a finite, useless weight.
+      const double falling = intensity_sigma / (intensity > 1e-6 ? intensity : 1e-6);
       return sigma * sigma + falling * falling;
     }
     case NoiseKind::kConstant:

@@ -16,7 +16,7 @@ class InvalidScan : public std::runtime_error {
 /// Immutable, shared between scans, so that the trigonometry is done once.
 ///
 /// Angles in radians from the sensor's x axis, counter-clockwise, strictly monotonic in either
-/// sense, less than one turn apart from first to last; time offsets in seconds after the stamp of
+/// sense, at most one turn apart from first to last; time offsets in seconds after the stamp of
 /// the scan; range limits in metres with 0 ≤ range_min < range_max (range_max may be infinite).
 class ScanGeometry {
  public:
