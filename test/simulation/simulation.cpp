@@ -147,6 +147,27 @@ TEST(Simulation, ScannersDoNotShareTheirNoise) {
   EXPECT_NE(scans[0].ranges, scans[1].ranges);
 }
 
+TEST(Path, TourOfTheFloorKeepsClearOfEverythingAndEndsInTheLabWithinAMinute) {
+  const std::string folder = SIGHTLINE_SOURCE_DIR "/config/";
+  const world::World floor = world::World::readFile(folder + "worlds/floor.yaml");
+  const auto rooms = world::RoomMap::readFile(folder + "rooms/floor.yaml");
+  Simulation simulation(world::World{}, {}, Pose2(-2.2, 4.6, 0.2), 1);
+  simulation.follow(Path::readFile(folder + "paths/floor_tour.yaml"));
+  std::vector<std::string> visited;
+  while (simulation.time() < 58'000'000'000) {
+    simulation.step();
+    const Eigen::Vector2d position = simulation.robot().T_map_base().translation();
+    for (const auto& s : floor.segments()) ASSERT_GT(s.segment.distance(position), 0.4);
+    for (const auto& d : floor.discs()) ASSERT_GT((d.centre - position).norm() - d.radius, 0.4);
+    const auto room = rooms.roomAt(position);
+    if (!room) continue;  // in a door
+    const std::string& name = rooms.rooms()[*room].name;
+    if (visited.empty() || visited.back() != name) visited.push_back(name);
+  }
+  EXPECT_THAT(visited, testing::ElementsAre("living_room", "corridor", "manipulator_lab"));
+  EXPECT_EQ(simulation.robot().velocity().linear, 0.0);
+}
+
 TEST(Path, ErrorsNameFileLineAndKey) {
   const auto errorOf = [](const std::string& text) -> std::string {
     try {

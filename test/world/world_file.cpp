@@ -131,5 +131,34 @@ TEST_F(WorldFiles, RefusesToIncludeItselfOrWhatIsNotThere) {
   EXPECT_THROW(World::readFile((folder_ / "nowhere.yaml").string()), config::Error);
 }
 
+TEST(WorldFile, ShippedWorldsLoadAndAreClosed) {
+  const std::string folder = SIGHTLINE_SOURCE_DIR "/config/";
+  for (const std::string name : {"floor", "living_room", "office", "corridor", "manipulator_lab"}) {
+    const World world = World::readFile(folder + "worlds/" + name + ".yaml");
+    const RoomMap rooms = RoomMap::readFile(folder + "rooms/" + name + ".yaml");
+    EXPECT_FALSE(world.discs().empty()) << name;
+    for (const Room& room : rooms.rooms()) {
+      for (int degree = 0; degree < 360; ++degree) {
+        const double angle = geometry::radians(degree);
+        const Eigen::Vector3d middle(room.T_map_room.x(), room.T_map_room.y(), 2.5);
+        EXPECT_TRUE(world.cast({middle, {std::cos(angle), std::sin(angle), 0.0}}))
+            << room.name << " of " << name;
+      }
+    }
+  }
+}
+
+TEST(WorldFile, RoomsOfTheFloorHaveTheSizesOfThePaper) {
+  const auto map = RoomMap::readFile(SIGHTLINE_SOURCE_DIR "/config/rooms/floor.yaml");
+  const auto size = [&](const char* name) {
+    const Room& room = map.rooms()[*map.find(name)];
+    return Eigen::Vector2d(room.walls[0].segment.length(), room.walls[1].segment.length());
+  };
+  EXPECT_TRUE(size("living_room").isApprox(Eigen::Vector2d(8.6, 5.0)));
+  EXPECT_TRUE(size("office").isApprox(Eigen::Vector2d(5.0, 3.0)));
+  EXPECT_TRUE(size("corridor").isApprox(Eigen::Vector2d(55.0, 2.3)));
+  EXPECT_EQ(map.doors().size(), 3u);
+}
+
 }  // namespace
 }  // namespace sightline::world
