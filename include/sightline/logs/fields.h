@@ -37,7 +37,7 @@ class Fields {
   void skipBlanks();
   [[noreturn]] void failAt(const char* name, const std::string& expected);
 
-  const std::string& source_;
+  std::string source_;
   int number_;
   std::string key_;
   const char* position_;
