@@ -1,6 +1,7 @@
 #include "sightline/motion/odometry_noise.h"
 
 #include <cmath>
+#include <utility>
 
 namespace sightline::motion {
 
@@ -29,26 +30,43 @@ void OdometryNoise::visit(config::FieldVisitor& visitor) {
 
 geometry::Pose2 expectedStep(const OdometryNoise& noise, const geometry::Pose2& measured,
                              double scale) {
-  const double length = measured.translation().norm();
-  const double turn =
-      (1.0 + noise.steering_bias) * measured.theta() + noise.heading_bias_per_metre * length;
-  return {scale * measured.translation(), turn};
+  Eigen::Vector3d tangent = measured.log();
+  const double length = tangent.head<2>().norm();
+  tangent.head<2>() *= scale;
+  tangent[2] += noise.steering_bias * tangent[2] + noise.heading_bias_per_metre * length;
+  return geometry::Pose2::exp(tangent);
 }
 
+namespace {
+
+// How slips along and across the way and a turn, all at one place of the path, move its end.
+Eigen::Matrix3d effectAt(const geometry::Pose2& place, const geometry::Pose2& end,
+                         const Eigen::Vector2d& direction) {
+  const Eigen::Vector2d along = place.rotation() * direction;
+  const Eigen::Vector2d rest = end.translation() - place.translation();
+  Eigen::Matrix3d effect;
+  effect << along.x(), -along.y(), -rest.y(), along.y(), along.x(), rest.x(), 0.0, 0.0, 1.0;
+  return effect;
+}
+
+}  // namespace
+
 Eigen::Matrix3d stepCovariance(const OdometryNoise& noise, const geometry::Pose2& step) {
-  const double length = step.translation().norm();
-  const double turn = std::abs(step.theta());
-  const double along = noise.distance_sigma * noise.distance_sigma * length;
-  const double across = noise.lateral_sigma * noise.lateral_sigma * length;
-  const double heading = noise.heading_sigma_per_metre * noise.heading_sigma_per_metre * length +
-                         noise.steering_sigma * noise.steering_sigma * turn;
-  Eigen::Matrix3d covariance = Eigen::Vector3d(along, across, heading).asDiagonal();
-  // The heading error builds up along the step: the end point shares it with half the length as its
-  // lever.
-  const Eigen::Vector3d lever(-0.5 * step.y(), 0.5 * step.x(), 0.0);
-  covariance += heading * lever * lever.transpose();
-  covariance.col(2) += heading * lever;
-  covariance.row(2) += heading * lever.transpose();
+  const Eigen::Vector3d tangent = step.log();
+  const Eigen::Vector2d direction = tangent.head<2>().normalized();
+  const double length = tangent.head<2>().norm();
+  const double turn = std::abs(tangent[2]);
+  const Eigen::Vector3d variances(
+      noise.distance_sigma * noise.distance_sigma * length,
+      noise.lateral_sigma * noise.lateral_sigma * length,
+      noise.heading_sigma_per_metre * noise.heading_sigma_per_metre * length +
+          noise.steering_sigma * noise.steering_sigma * turn);
+  // The noise is spread evenly over the path. Simpson's rule: exact for a straight one.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto& [ratio, weight] : {std::pair(0.0, 1.0), {0.5, 4.0}, {1.0, 1.0}}) {
+    const Eigen::Matrix3d effect = effectAt(geometry::Pose2::exp(ratio * tangent), step, direction);
+    covariance += weight / 6.0 * effect * variances.asDiagonal() * effect.transpose();
+  }
   return covariance;
 }
 

@@ -11,13 +11,14 @@ namespace sightline::motion {
 /// drawn about 1.006 with 1 %; heading drifts by 0.6° a metre and by 0.1 % of the steering, each
 /// with a bias and a spread of that size.
 ///
-/// A step of odometry is (length driven d, turn a). What really happened is
-///   length  s·d (1 + ε_d),                        ε_d ~ N(0, distance_sigma² / d): white over the
-///   way turn    (1 + steering_bias) a + heading_bias_per_metre·d + noise of variance
-///           heading_sigma_per_metre²·d + steering_sigma²·|a|
-/// The spreads are random walks: `..._per_metre` is the standard deviation after the first metre,
-/// and grows with the square root of the way, so that the result does not depend on how the way is
-/// cut into steps.
+/// A step of odometry reports a length d and a turn a. What really happened is
+/// - a length of s·d, with noise of variance distance_sigma²·d along the way and lateral_sigma²·d
+///   across it,
+/// - a turn of (1 + steering_bias)·a + heading_bias_per_metre·d, with noise of variance
+///   heading_sigma_per_metre²·d + steering_sigma²·|a|.
+/// The noises are random walks: each sigma is the standard deviation after the first metre or
+/// radian and grows with the square root of the way, so that the result does not depend on how the
+/// way is cut into steps.
 struct OdometryNoise {
   double scale_mean = 1.006;     ///< true length over measured length, mean over runs
   double scale_sigma = 0.01;     ///< its standard deviation over runs
@@ -31,12 +32,15 @@ struct OdometryNoise {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// The step as the model expects it to have happened: biases taken out, scale applied.
+/// The step as the model expects it to have happened: biases taken out, scale applied, along a path
+/// of constant body velocity. Its translation is proportional to the scale.
 geometry::Pose2 expectedStep(const OdometryNoise& noise, const geometry::Pose2& measured,
                              double scale);
 
-/// Covariance, in the body frame at the start of the step, of what the model leaves unknown of one
-/// step (scale apart).
+/// Covariance of (x, y, θ), in the body frame at the start of the step, of what the model leaves
+/// unknown of one step (scale apart), first order. The noise comes in evenly along a path of
+/// constant body velocity, so that noise of the heading also moves the end point, and a long step
+/// is as uncertain as the short ones it can be cut into (to 1 % for turns up to a radian).
 Eigen::Matrix3d stepCovariance(const OdometryNoise& noise, const geometry::Pose2& step);
 
 }  // namespace sightline::motion

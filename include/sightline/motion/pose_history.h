@@ -19,7 +19,8 @@ class PoseHistory {
   /// Keeps poses this long behind the newest [ns].
   explicit PoseHistory(std::int64_t length = 10'000'000'000) : length_(length) {}
 
-  /// A pose at or before the newest stamp starts the history anew: the clock was set back.
+  /// A pose before the newest stamp starts the history anew: the clock was set back. One at the
+  /// newest stamp takes its place.
   void add(std::int64_t stamp, const geometry::Pose2& pose);
   void clear() { poses_.clear(); }
   bool empty() const { return poses_.empty(); }
