@@ -74,7 +74,8 @@ void addGate(const Scene& scene, const tracking::WallObservation& observation, M
   const Eigen::Vector2d normal = segment.leftNormal();
   const double foot = segment.along(scene.update.pose.mean.translation());
   const auto edge = [&](double along, double side) {
-    const double half = observation.gate.opening + std::abs(along - foot) * std::tan(observation.gate.angle);
+    const double half =
+        observation.gate.opening + std::abs(along - foot) * std::tan(observation.gate.angle);
     return toPoint(segment.start + along * segment.direction() + side * half * normal, 0.02);
   };
   const double waist = std::min(std::max(foot, 0.0), segment.length());

@@ -30,7 +30,8 @@ namespace sightline::nodes {
 
 namespace {
 
-// A scan this much older than the last one means that the clock was set back, not that a message came late.
+// A scan this much older than the last one means that the clock was set back, not that a message
+// came late.
 constexpr std::int64_t kClockSetBack = 1'000'000'000;
 
 class RoomTrackerNode {
@@ -117,7 +118,8 @@ RoomTrackerNode::RoomTrackerNode(ros::NodeHandle node, ros::NodeHandle private_n
   map_publisher_ = node_.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
   map_publisher_.publish(bridge::toGridMessage(
       world::drawRooms(tracker_.map(), config_.map_resolution), config_.map_frame));
-  if (!config_.initial_pose.empty()) tracker_.setPose(bridge::startPose(config_.initial_pose, config_.initial_sigma));
+  if (!config_.initial_pose.empty())
+    tracker_.setPose(bridge::startPose(config_.initial_pose, config_.initial_sigma));
   initial_pose_subscriber_ =
       node_.subscribe("initialpose", 1, &RoomTrackerNode::onInitialPose, this);
   set_room_server_ = private_node.advertiseService("set_room", &RoomTrackerNode::onSetRoom, this);
@@ -161,10 +163,10 @@ bool RoomTrackerNode::process(const Waiting& waiting) {
     const auto odometry = pipeline::addMotion(
         scan,
         [this](std::int64_t stamp) -> std::optional<geometry::Pose2> {
-          return bridge::toPose2(transforms_
-                                     .lookupTransform(config_.odom_frame, config_.base_frame,
-                                                      bridge::timeOf(stamp))
-                                     .transform);
+          return bridge::toPose2(
+              transforms_
+                  .lookupTransform(config_.odom_frame, config_.base_frame, bridge::timeOf(stamp))
+                  .transform);
         },
         mounting.T_base_sensor);
     track(scan, *odometry, mounting.T_base_sensor, scanner);
@@ -181,7 +183,8 @@ bool RoomTrackerNode::process(const Waiting& waiting) {
 
 void RoomTrackerNode::restartAfterClockSetBack(std::int64_t stamp) {
   if (stamp >= last_stamp_ - kClockSetBack) return;
-  ROS_WARN("the clock was set back by %.1f s: tracking starts again", 1e-9 * static_cast<double>(last_stamp_ - stamp));
+  ROS_WARN("the clock was set back by %.1f s: tracking starts again",
+           1e-9 * static_cast<double>(last_stamp_ - stamp));
   last_stamp_ = 0;
   if (config_.initial_pose.empty()) {
     tracker_.restartClock();

@@ -11,8 +11,8 @@ namespace sightline::nodes {
 
 /// Parameters of the node room_tracker.
 struct RoomTrackerConfig {
-  std::string rooms;                            ///< path of the rooms file
-  std::string scans = "scan";                   ///< topics, apart by spaces
+  std::string rooms;           ///< path of the rooms file
+  std::string scans = "scan";  ///< topics, apart by spaces
   std::string map_frame = "map";
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
@@ -32,11 +32,26 @@ struct RoomTrackerConfig {
     visitor.text("odom_frame", odom_frame, "frame of the odometry");
     visitor.text("base_frame", base_frame, "frame of the robot");
     visitor.flag("publish_tf", publish_tf, "broadcast map_frame to odom_frame");
-    visitor.number("transform_tolerance", transform_tolerance, {"s", {0.0, 10.0}, "the broadcast is dated this much after the scan, so that it serves until the next one"});
-    visitor.number("odometry_timeout", odometry_timeout, {"s", {0.0, 60.0}, "how long a scan waits for the odometry to reach it before it is dropped"});
-    visitor.number("map_resolution", map_resolution, {"m", {0.005, 1.0}, "cell of the occupancy grid on the topic map"});
-    visitor.numbers("initial_pose", initial_pose, {"m, m, rad", {}, "x, y and yaw of the robot at the start; without it the node waits for initialpose"});
-    visitor.numbers("initial_sigma", initial_sigma, {"m, rad", config::kNotNegative, "standard deviations of position and heading of the start pose, also where initialpose brings no covariance"});
+    visitor.number(
+        "transform_tolerance", transform_tolerance,
+        {"s",
+         {0.0, 10.0},
+         "the broadcast is dated this much after the scan, so that it serves until the next one"});
+    visitor.number("odometry_timeout", odometry_timeout,
+                   {"s",
+                    {0.0, 60.0},
+                    "how long a scan waits for the odometry to reach it before it is dropped"});
+    visitor.number("map_resolution", map_resolution,
+                   {"m", {0.005, 1.0}, "cell of the occupancy grid on the topic map"});
+    visitor.numbers(
+        "initial_pose", initial_pose,
+        {"m, m, rad",
+         {},
+         "x, y and yaw of the robot at the start; without it the node waits for initialpose"});
+    visitor.numbers("initial_sigma", initial_sigma,
+                    {"m, rad", config::kNotNegative,
+                     "standard deviations of position and heading of the start pose, also where "
+                     "initialpose brings no covariance"});
     visitor.group("noise", noise);
     visitor.group("tracker", tracker);
   }

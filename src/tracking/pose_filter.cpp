@@ -39,12 +39,13 @@ void PoseFilter::predictFull(const Pose2& step) {
 }
 
 void PoseFilter::predictPlain(const Pose2& step) {
-  // jensfelt eqs 5 and 8: the step is added, and its noise too, as if heading and position had nothing to do with each
-  // other.
+  // jensfelt eqs 5 and 8: the step is added, and its noise too, as if heading and position had
+  // nothing to do with each other.
   const Pose2 moved = motion::expectedStep(config_.odometry, step, scale_);
   const Eigen::Matrix3d G = geometry::composeJacobianSecond(pose_);
   const Eigen::Matrix3d noise = motion::stepCovariance(config_.odometry, moved);
-  covariance_.topLeftCorner<3, 3>() += G * Eigen::Matrix3d(noise.diagonal().asDiagonal()) * G.transpose();
+  covariance_.topLeftCorner<3, 3>() +=
+      G * Eigen::Matrix3d(noise.diagonal().asDiagonal()) * G.transpose();
   pose_ = pose_ * moved;
 }
 
@@ -58,8 +59,8 @@ PoseFilter::Innovation PoseFilter::innovation(const PolarLine& measured_base,
   result.jacobian.setZero();
   result.jacobian.leftCols<3>() =
       geometry::transformJacobianPose(T_base_map, wall_map) * geometry::inverseJacobian(pose_);
-  result.covariance = result.jacobian * covariance_ * result.jacobian.transpose() +
-                      measured.covariance;
+  result.covariance =
+      result.jacobian * covariance_ * result.jacobian.transpose() + measured.covariance;
   result.nis = result.value.dot(result.covariance.inverse() * result.value);
   return result;
 }

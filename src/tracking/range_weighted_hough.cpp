@@ -7,7 +7,9 @@ namespace sightline::tracking {
 
 namespace {
 
-double squared(double value) { return value * value; }
+double squared(double value) {
+  return value * value;
+}
 
 // Half the accumulator, in bins; the outermost points of a wide gate may lie beyond its opening.
 int halfWidth(const ValidationGate& gate, double bin) {
@@ -22,8 +24,7 @@ std::vector<double> RangeWeightedHough::vote(const GatedWall& wall, double turn)
   const int half = halfWidth(wall.gate, config_.distance_bin);
   std::vector<double> accumulator(static_cast<std::size_t>(2 * half + 1), 0.0);
   for (const BeamPoint* point : wall.points) {
-    const double bin =
-        (normal.dot(point->position) - predicted.rho) / config_.distance_bin + half;
+    const double bin = (normal.dot(point->position) - predicted.rho) / config_.distance_bin + half;
     const auto lower = static_cast<int>(std::floor(bin));
     if (lower < 0 || lower + 1 > 2 * half) continue;
     // Shared between the two nearest bins, so that a peak on the edge of a bin is not halved.
@@ -42,7 +43,8 @@ std::optional<WallPeak> RangeWeightedHough::bestPeak(const GatedWall& wall, doub
   double best_score = 0.0;
   for (std::size_t i = 0; i < votes.size(); ++i) {
     const double distance = (static_cast<int>(i) - half) * config_.distance_bin;
-    // Between peaks that weigh alike, the prediction decides: half the weight at the edge of the gate.
+    // Between peaks that weigh alike, the prediction decides: half the weight at the edge of the
+    // gate.
     const double score = votes[i] * (1.0 - 0.5 * squared(distance / (half * config_.distance_bin)));
     if (score > best_score) {
       best_score = score;

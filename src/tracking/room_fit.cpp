@@ -9,10 +9,10 @@ namespace {
 
 // A wall seen from a sensor: everything about it that does not depend on the beam.
 struct SeenWall {
-  Eigen::Vector2d normal;     // into the room
+  Eigen::Vector2d normal;  // into the room
   Eigen::Vector2d direction;
-  double distance;            // of the sensor from the wall, inside
-  double foot;                // of its perpendicular, metres from the wall's start
+  double distance;  // of the sensor from the wall, inside
+  double foot;      // of its perpendicular, metres from the wall's start
   double length;
   const world::Wall* wall;
 };

@@ -16,8 +16,8 @@ namespace {
 
 using geometry::Pose2;
 
-// A beam is on a wall if it ends this close to it: what plaster, skirting boards and a pose in the middle of a correction
-// leave open.
+// A beam is on a wall if it ends this close to it: what plaster, skirting boards and a pose in the
+// middle of a correction leave open.
 constexpr double kWallTolerance = 0.1;
 // Fewer beams than this say nothing about whether the room fits.
 constexpr std::size_t kEvidence = 20;
@@ -54,7 +54,7 @@ class RoomTracker::Impl {
  private:
   void predict(const Pose2& T_odom_base);
   Explanation explain(const PoseFilter& prior, const scan::Scan& scan, const Pose2& T_base_sensor,
-                      const std::vector<BeamPoint>& points) const;
+                      const Sweep& sweep) const;
   Explanation explainBest(const scan::Scan& scan, const Pose2& T_base_sensor) const;
   std::vector<WallIndex> wallsInSight() const;
   void applyWalls(PoseFilter& filter, std::vector<WallObservation>& walls) const;
@@ -145,9 +145,8 @@ std::vector<WallIndex> RoomTracker::Impl::wallsInSight() const {
 }
 
 Explanation RoomTracker::Impl::explain(const PoseFilter& prior, const scan::Scan& scan,
-                                       const Pose2& T_base_sensor,
-                                       const std::vector<BeamPoint>& points) const {
-  Explanation explanation{prior, finder_.find(prior, map_, wallsInSight(), points), {}};
+                                       const Pose2& T_base_sensor, const Sweep& sweep) const {
+  Explanation explanation{prior, finder_.find(prior, map_, wallsInSight(), sweep), {}};
   applyWalls(explanation.filter, explanation.walls);
   explanation.fit = fitToRoom(scan, explanation.filter.pose().mean * T_base_sensor,
                               map_.rooms()[room_], kWallTolerance);
@@ -156,8 +155,10 @@ Explanation RoomTracker::Impl::explain(const PoseFilter& prior, const scan::Scan
 
 bool RoomTracker::Impl::contradictsPrediction(const Explanation& explanation) const {
   const RoomFit& fit = explanation.fit;
-  if (fit.on_wall + fit.beyond >= kEvidence && fit.quality() < config_.slip.min_quality) return true;
-  // Walls well seen and yet refused: gates must not lock out for ever what contradicts a wrong prediction.
+  if (fit.on_wall + fit.beyond >= kEvidence && fit.quality() < config_.slip.min_quality)
+    return true;
+  // Walls well seen and yet refused: gates must not lock out for ever what contradicts a wrong
+  // prediction.
   std::size_t accepted = 0;
   std::size_t refused = 0;
   for (const WallObservation& wall : explanation.walls) {
@@ -169,12 +170,12 @@ bool RoomTracker::Impl::contradictsPrediction(const Explanation& explanation) co
 Explanation RoomTracker::Impl::explainBest(const scan::Scan& scan,
                                            const Pose2& T_base_sensor) const {
   const double sigma = config_.method == Method::kPlain ? config_.plain_point_sigma : 0.0;
-  const std::vector<BeamPoint> points = beamPoints(scan, T_base_sensor, sigma);
-  Explanation as_predicted = explain(*filter_, scan, T_base_sensor, points);
+  const Sweep sweep = readSweep(scan, T_base_sensor, config_.odometry, sigma);
+  Explanation as_predicted = explain(*filter_, scan, T_base_sensor, sweep);
   if (!contradictsPrediction(as_predicted)) return as_predicted;
   PoseFilter slipped = *filter_;
   slipped.inflate(config_.slip.position_sigma, config_.slip.heading_sigma);
-  Explanation as_slip = explain(slipped, scan, T_base_sensor, points);
+  Explanation as_slip = explain(slipped, scan, T_base_sensor, sweep);
   const bool better = support(as_slip.fit) > support(as_predicted.fit);
   return better ? as_slip : as_predicted;
 }
@@ -239,21 +240,29 @@ RoomTracker::~RoomTracker() = default;
 RoomTracker::RoomTracker(RoomTracker&&) noexcept = default;
 RoomTracker& RoomTracker::operator=(RoomTracker&&) noexcept = default;
 
-void RoomTracker::setPose(const geometry::UncertainPose2& T_map_base) { impl_->setPose(T_map_base); }
+void RoomTracker::setPose(const geometry::UncertainPose2& T_map_base) {
+  impl_->setPose(T_map_base);
+}
 
 void RoomTracker::inflate(double position_sigma, double heading_sigma) {
   impl_->inflate(position_sigma, heading_sigma);
 }
 
-bool RoomTracker::setRoom(const std::string& name) { return impl_->setRoom(name); }
+bool RoomTracker::setRoom(const std::string& name) {
+  return impl_->setRoom(name);
+}
 
-void RoomTracker::restartClock() { impl_->restartClock(); }
+void RoomTracker::restartClock() {
+  impl_->restartClock();
+}
 
 std::optional<TrackerUpdate> RoomTracker::update(const scan::Scan& scan, const Pose2& T_odom_base,
                                                  const Pose2& T_base_sensor) {
   return impl_->update(scan, T_odom_base, T_base_sensor);
 }
 
-const world::RoomMap& RoomTracker::map() const { return impl_->map(); }
+const world::RoomMap& RoomTracker::map() const {
+  return impl_->map();
+}
 
 }  // namespace sightline::tracking

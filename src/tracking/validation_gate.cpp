@@ -7,16 +7,17 @@ namespace sightline::tracking {
 
 namespace {
 
-double squared(double value) { return value * value; }
+double squared(double value) {
+  return value * value;
+}
 
 // A wall piece shifted along itself is still the wall; past this it no longer tells where it ends.
 constexpr double kMaxAlongSlack = 0.3;
 
 }  // namespace
 
-ValidationGate::ValidationGate(const GateConfig& config, const world::Wall& wall,
-                               double wall_sigma, const geometry::UncertainPose2& T_map_base,
-                               double point_sigma)
+ValidationGate::ValidationGate(const GateConfig& config, const world::Wall& wall, double wall_sigma,
+                               const geometry::UncertainPose2& T_map_base, double point_sigma)
     : wall_(&wall) {
   const geometry::UncertainPose2 T_base_map = geometry::inverse(T_map_base);
   predicted_ = geometry::transform(T_base_map, wall.segment.line());
@@ -26,9 +27,9 @@ ValidationGate::ValidationGate(const GateConfig& config, const world::Wall& wall
   start_base_ = segment_base.start;
   foot_ = -direction_.dot(start_base_);
 
-  size_.opening = std::min(
-      config.max_opening, config.sigmas * std::sqrt(predicted_.covariance(0, 0) +
-                                                    squared(wall_sigma) + squared(point_sigma)));
+  size_.opening = std::min(config.max_opening,
+                           config.sigmas * std::sqrt(predicted_.covariance(0, 0) +
+                                                     squared(wall_sigma) + squared(point_sigma)));
   size_.angle =
       std::min(config.max_angle, std::atan(config.sigmas * std::sqrt(predicted_.covariance(1, 1))));
   slope_ = std::tan(size_.angle);

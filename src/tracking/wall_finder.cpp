@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <unordered_map>
 
 #include "sightline/fitting/line_fit.h"
 
@@ -14,9 +16,12 @@ using geometry::Pose2;
 
 constexpr int kMaxReassignments = 5;
 
-double squared(double value) { return value * value; }
+double squared(double value) {
+  return value * value;
+}
 
-// The noise of a typical beam: half the trace holds for beams along the wall's normal as for those across it.
+// The noise of a typical beam: half the trace holds for beams along the wall's normal as for those
+// across it.
 double typicalSigma(const std::vector<BeamPoint>& points) {
   if (points.empty()) return 0.0;
   return std::sqrt(0.5 * points[points.size() / 2].covariance.trace());
@@ -24,6 +29,35 @@ double typicalSigma(const std::vector<BeamPoint>& points) {
 
 double pointSigma(const BeamPoint& point, const Eigen::Vector2d& normal) {
   return std::sqrt(normal.dot(point.covariance * normal));
+}
+
+// When in the sweep a wall was met, on average: that share of what is not known of the motion is in
+// its line.
+double meanSweepShare(const std::vector<const BeamPoint*>& points) {
+  double sum = 0.0;
+  for (const BeamPoint* point : points) sum += point->sweep_share;
+  return sum / static_cast<double>(points.size());
+}
+
+// A beam near a corner lies in the gates of two walls but met one: the one it is nearest to.
+void giveEachBeamToOneWall(std::vector<GatedWall>& walls) {
+  struct Claim {
+    const GatedWall* wall = nullptr;
+    double distance = std::numeric_limits<double>::infinity();
+  };
+  std::unordered_map<const BeamPoint*, Claim> claims;
+  for (const GatedWall& wall : walls) {
+    for (const BeamPoint* point : wall.points) {
+      const double distance = std::abs(wall.gate.predicted().signedDistance(point->position));
+      Claim& claim = claims[point];
+      if (distance < claim.distance) claim = {&wall, distance};
+    }
+  }
+  for (GatedWall& wall : walls) {
+    const auto is_of_another = [&](const BeamPoint* point) { return claims[point].wall != &wall; };
+    wall.points.erase(std::remove_if(wall.points.begin(), wall.points.end(), is_of_another),
+                      wall.points.end());
+  }
 }
 
 std::vector<fitting::NoisyPoint> toFitPoints(const std::vector<const BeamPoint*>& points) {
@@ -41,7 +75,9 @@ std::vector<GatedWall> WallFinder::gate(const PoseFilter& filter, const Walls& w
   gated.reserve(walls.size());
   const double sigma = typicalSigma(points);
   for (const world::Wall* wall : walls) {
-    gated.push_back({ValidationGate(config_.gate, *wall, config_.wall.position_sigma, filter.pose(), sigma), {}});
+    gated.push_back(
+        {ValidationGate(config_.gate, *wall, config_.wall.position_sigma, filter.pose(), sigma),
+         {}});
     if (wall->spans.empty()) continue;
     for (const BeamPoint& point : points) {
       if (gated.back().gate.contains(point)) gated.back().points.push_back(&point);
@@ -55,7 +91,8 @@ PoseFilter WallFinder::refineByHough(const PoseFilter& predicted, const Walls& w
   const HoughPeaks peaks = hough_.transform(gated);
   PoseFilter refined = predicted;
   for (std::size_t i = 0; i < gated.size(); ++i) {
-    if (!peaks.walls[i] || gated[i].points.size() < static_cast<std::size_t>(config_.wall.min_beams)) {
+    if (!peaks.walls[i] ||
+        gated[i].points.size() < static_cast<std::size_t>(config_.wall.min_beams)) {
       continue;
     }
     PolarLine coarse = gated[i].gate.predicted();
@@ -94,20 +131,24 @@ bool WallFinder::isEnough(const std::vector<const BeamPoint*>& points,
 
 void WallFinder::addMapUncertainty(const std::vector<const BeamPoint*>& points,
                                    PolarLine& line) const {
-  // The map's wall is uncertain where it was seen: a turn about that place shifts the foot of the perpendicular.
+  // The map's wall is uncertain where it was seen: a turn about that place shifts the foot of the
+  // perpendicular.
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
   for (const BeamPoint* point : points) centroid += point->position;
   centroid /= static_cast<double>(points.size());
   const double lever = line.direction().dot(centroid);
   const double turn = squared(config_.wall.direction_sigma);
   Eigen::Matrix2d added;
-  added << squared(config_.wall.position_sigma) + lever * lever * turn, lever * turn, lever * turn, turn;
+  added << squared(config_.wall.position_sigma) + lever * lever * turn, lever * turn, lever * turn,
+      turn;
   line.covariance += added;
 }
 
 void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const Pose2& T_base_map,
+                         const Eigen::Matrix3d& motion_covariance,
                          WallObservation& observation) const {
-  // Least squares over the beams near the line, which is moved to fit them until they stay the same.
+  // Least squares over the beams near the line, which is moved to fit them until they stay the
+  // same.
   PolarLine line = geometry::transform(T_base_map, wall.segment.line());
   std::vector<const BeamPoint*> near = gated.points;
   fitting::LineFit fit;
@@ -122,11 +163,16 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
     near = std::move(next);
   }
   if (!isEnough(near, line)) return;
-  // Walls are not as straight as lines: what the residuals show beyond the sensor's noise counts as noise.
-  const double excess = fit.chi_square / static_cast<double>(std::max<std::size_t>(1, fit.degrees_of_freedom));
+  // Walls are not as straight as lines: what the residuals show beyond the sensor's noise counts as
+  // noise.
+  const double excess =
+      fit.chi_square / static_cast<double>(std::max<std::size_t>(1, fit.degrees_of_freedom));
   observation.fit = line;
   observation.fit.covariance *= std::max(1.0, excess);
   addMapUncertainty(near, observation.fit);
+  observation.fit = geometry::transform(
+      geometry::UncertainPose2{{}, squared(meanSweepShare(near)) * motion_covariance},
+      observation.fit);
   for (const BeamPoint* point : near) observation.accepted_beams.push_back(point->beam);
   observation.accepted = true;
 }
@@ -134,21 +180,23 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
 std::vector<WallObservation> WallFinder::find(const PoseFilter& predicted,
                                               const world::RoomMap& map,
                                               const std::vector<WallIndex>& indices,
-                                              const std::vector<BeamPoint>& points) const {
+                                              const Sweep& sweep) const {
   Walls walls;
   for (const WallIndex& index : indices) {
     walls.push_back(&map.rooms()[index.room].walls[index.wall]);
   }
-  const std::vector<GatedWall> first = gate(predicted, walls, points);
+  const std::vector<GatedWall> first = gate(predicted, walls, sweep.points);
   const PoseFilter refined = refineByHough(predicted, walls, first);
-  const std::vector<GatedWall> second = gate(refined, walls, points);
+  std::vector<GatedWall> second = gate(refined, walls, sweep.points);
+  giveEachBeamToOneWall(second);
   std::vector<WallObservation> observations(walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {
     observations[i].room = indices[i].room;
     observations[i].wall = indices[i].wall;
     observations[i].gate = first[i].gate.size();
     observations[i].beams_in_gate = first[i].points.size();
-    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), observations[i]);
+    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), sweep.motion_covariance,
+            observations[i]);
   }
   return observations;
 }

@@ -62,8 +62,8 @@ void fillRoom(Occupancy& grid, const Room& room) {
 void openDoor(Occupancy& grid, const RoomMap& map, const Door& door) {
   const geometry::Segment& first = map.rooms()[door.rooms[0]].walls[door.walls[0]].segment;
   const geometry::Segment& second = map.rooms()[door.rooms[1]].walls[door.walls[1]].segment;
-  const double depth = std::max(first.distance(door.centre_map), second.distance(door.centre_map)) +
-                       grid.resolution;
+  const double depth =
+      std::max(first.distance(door.centre_map), second.distance(door.centre_map)) + grid.resolution;
   const Eigen::Vector2d through = first.leftNormal();
   const Eigen::Vector2d across = first.direction();
   for (double d = -depth; d <= depth; d += 0.5 * grid.resolution) {

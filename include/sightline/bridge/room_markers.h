@@ -9,9 +9,10 @@
 
 namespace sightline::bridge {
 
-/// One scan's tracking as rviz sees it, in the map frame: every wall (bright in the robot's room), the gates, the beams that
-/// the walls were fitted to, the 95 % ellipse of the position with the heading, and the name of the room. Markers keep
-/// their namespaces and ids from scan to scan, so each replaces the one before.
+/// One scan's tracking as rviz sees it, in the map frame: every wall (bright in the robot's room),
+/// the gates, the beams that the walls were fitted to, the 95 % ellipse of the position with the
+/// heading, and the name of the room. Markers keep their namespaces and ids from scan to scan, so
+/// each replaces the one before.
 visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& update,
                                             const world::RoomMap& map, const scan::Scan& scan,
                                             const geometry::Pose2& T_base_sensor,

@@ -8,8 +8,9 @@
 
 namespace sightline::tracking {
 
-/// Kalman filter over (x, y, θ, s): the robot's pose in the map and the scale of its odometry, true length over measured
-/// (jensfelt section 4.1; composed in the body frame with both Jacobians, the scale as a state).
+/// Kalman filter over (x, y, θ, s): the robot's pose in the map and the scale of its odometry, true
+/// length over measured (jensfelt section 4.1; composed in the body frame with both Jacobians, the
+/// scale as a state).
 class PoseFilter {
  public:
   PoseFilter(const TrackerConfig& config, const geometry::UncertainPose2& start);
@@ -18,9 +19,9 @@ class PoseFilter {
   void predict(const geometry::Pose2& step);
   /// What a measured line of the base frame says against its wall in the map, first order.
   struct Innovation {
-    Eigen::Vector2d value;                   ///< (ρ, φ) measured less predicted, heading wrapped
-    Eigen::Matrix2d covariance;              ///< S, of the value
-    Eigen::Matrix<double, 2, 4> jacobian;    ///< of the prediction by the state
+    Eigen::Vector2d value;                 ///< (ρ, φ) measured less predicted, heading wrapped
+    Eigen::Matrix2d covariance;            ///< S, of the value
+    Eigen::Matrix<double, 2, 4> jacobian;  ///< of the prediction by the state
     double nis = 0.0;
   };
   Innovation innovation(const geometry::PolarLine& measured_base,

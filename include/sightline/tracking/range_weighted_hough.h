@@ -25,13 +25,15 @@ struct WallPeak {
 };
 
 struct HoughPeaks {
-  double turn = 0.0;                           ///< Δφ, one for all walls [rad]
-  std::vector<std::optional<WallPeak>> walls;  ///< one for each wall handed in; nothing where no beam voted
+  double turn = 0.0;  ///< Δφ, one for all walls [rad]
+  std::vector<std::optional<WallPeak>>
+      walls;  ///< one for each wall handed in; nothing where no beam voted
 };
 
-/// Local range-weighted Hough transform inside the gates (jensfelt section 4.2, after Forsberg et al.): each beam votes
-/// with its range for every line through it, since near beams lie closer together. The walls turn with the robot, all by the
-/// same angle: the turn is the one at which the walls' best peaks together weigh most.
+/// Local range-weighted Hough transform inside the gates (jensfelt section 4.2, after Forsberg et
+/// al.): each beam votes with its range for every line through it, since near beams lie closer
+/// together. The walls turn with the robot, all by the same angle: the turn is the one at which the
+/// walls' best peaks together weigh most.
 class RangeWeightedHough {
  public:
   explicit RangeWeightedHough(const HoughConfig& config) : config_(config) {}

@@ -10,9 +10,10 @@ namespace sightline::tracking {
 
 /// How the beams of a scan go with the walls of a room, seen from a pose.
 struct RoomFit {
-  std::size_t on_wall = 0;   ///< ended where a wall is
-  std::size_t beyond = 0;    ///< passed through a place where a wall is
-  std::size_t occluded = 0;  ///< ended before the wall: says nothing against the pose, rooms are furnished
+  std::size_t on_wall = 0;  ///< ended where a wall is
+  std::size_t beyond = 0;   ///< passed through a place where a wall is
+  std::size_t occluded =
+      0;  ///< ended before the wall: says nothing against the pose, rooms are furnished
 
   /// Share of the beams that could have met a wall and did; 0 where none could.
   double quality() const {

@@ -7,7 +7,8 @@ namespace sightline::tracking {
 
 enum class Method {
   kFull,   ///< body-frame prediction, full covariances, odometry scale estimated
-  kPlain,  ///< jensfelt's own simpler choices: additive prediction, isotropic 50 mm, a floor on the uncertainty
+  kPlain,  ///< jensfelt's own simpler choices: additive prediction, isotropic 50 mm, a floor on the
+           ///< uncertainty
 };
 
 /// The validation gates of jensfelt section 4.2.1.
@@ -30,19 +31,19 @@ struct HoughConfig {
 /// What a wall has to show before it counts.
 struct WallConfig {
   int min_beams = 8;
-  double min_length = 0.25;         ///< [m]
-  double position_sigma = 0.01;     ///< of a wall of the map [m]
-  double direction_sigma = 0.004;   ///< of a wall of the map [rad]
-  double max_nis = 16.0;            ///< of an update, 2 degrees of freedom
+  double min_length = 0.25;        ///< [m]
+  double position_sigma = 0.01;    ///< of a wall of the map [m]
+  double direction_sigma = 0.004;  ///< of a wall of the map [rad]
+  double max_nis = 16.0;           ///< of an update, 2 degrees of freedom
   void visit(config::FieldVisitor& visitor);
 };
 
-/// A step of the wheels that did not happen as reported is noticed by what the scanner sees, and tried again with this
-/// much more uncertainty.
+/// A step of the wheels that did not happen as reported is noticed by what the scanner sees, and
+/// tried again with this much more uncertainty.
 struct SlipConfig {
-  double min_quality = 0.6;         ///< below which a scan is tried again
-  double position_sigma = 0.15;     ///< [m]
-  double heading_sigma = 0.12;      ///< [rad]
+  double min_quality = 0.6;      ///< below which a scan is tried again
+  double position_sigma = 0.15;  ///< [m]
+  double heading_sigma = 0.12;   ///< [rad]
 
   void visit(config::FieldVisitor& visitor);
 };

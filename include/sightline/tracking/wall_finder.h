@@ -22,11 +22,10 @@ class WallFinder {
  public:
   explicit WallFinder(const TrackerConfig& config) : config_(config), hough_(config.hough) {}
 
-  /// One observation for each wall asked for, those without a fit not `accepted`. Innovation and NIS are left to the
-  /// filter.
+  /// One observation for each wall asked for, those without a fit not `accepted`. Innovation and
+  /// NIS are left to the filter.
   std::vector<WallObservation> find(const PoseFilter& predicted, const world::RoomMap& map,
-                                    const std::vector<WallIndex>& walls,
-                                    const std::vector<BeamPoint>& points) const;
+                                    const std::vector<WallIndex>& walls, const Sweep& sweep) const;
 
  private:
   using Walls = std::vector<const world::Wall*>;
@@ -35,11 +34,10 @@ class WallFinder {
   std::vector<GatedWall> gate(const PoseFilter& filter, const Walls& walls,
                               const std::vector<BeamPoint>& points) const;
   void fitWall(const GatedWall& gated, const world::Wall& wall, const geometry::Pose2& T_base_map,
-               WallObservation& observation) const;
+               const Eigen::Matrix3d& motion_covariance, WallObservation& observation) const;
   std::vector<const BeamPoint*> nearLine(const std::vector<const BeamPoint*>& points,
                                          const geometry::PolarLine& line, double slack) const;
-  bool isEnough(const std::vector<const BeamPoint*>& points,
-                const geometry::PolarLine& line) const;
+  bool isEnough(const std::vector<const BeamPoint*>& points, const geometry::PolarLine& line) const;
   void addMapUncertainty(const std::vector<const BeamPoint*>& points,
                          geometry::PolarLine& line) const;
 

@@ -9,8 +9,9 @@
 
 namespace sightline::tracking {
 
-/// Where a wall is looked for (jensfelt fig. 4): around the predicted wall, half as wide as `opening` at the foot of the
-/// sensor's perpendicular and widening by `angle` to both sides along it.
+/// Where a wall is looked for (jensfelt fig. 4): around the predicted wall, half as wide as
+/// `opening` at the foot of the sensor's perpendicular and widening by `angle` to both sides along
+/// it.
 struct GateSize {
   double opening = 0.0;  ///< δ [m], half width
   double angle = 0.0;    ///< γ [rad]
@@ -25,8 +26,9 @@ struct WallObservation {
   std::vector<std::size_t> accepted_beams;  ///< that the line was fitted to
   bool accepted = false;                    ///< whether it updated the pose
   geometry::PolarLine fit;                  ///< in the base frame, where any
-  Eigen::Vector2d innovation = Eigen::Vector2d::Zero();  ///< (ρ, φ) measured less predicted [m, rad]
-  double nis = 0.0;                         ///< normalised innovation squared, 2 degrees of freedom
+  Eigen::Vector2d innovation =
+      Eigen::Vector2d::Zero();  ///< (ρ, φ) measured less predicted [m, rad]
+  double nis = 0.0;             ///< normalised innovation squared, 2 degrees of freedom
 };
 
 }  // namespace sightline::tracking
