@@ -11,9 +11,13 @@ namespace {
 
 using geometry::PolarLine;
 
-constexpr int kMaxIterations = 20;
-// Steps this far below the standard deviations no longer matter.
-constexpr double kConverged = 1e-6;
+constexpr int kMaxIterations = 30;
+// A step this far below the standard deviations no longer matters.
+constexpr double kConverged = 1e-4;
+// Share of the information added to its diagonal once a step has led uphill (Levenberg-Marquardt).
+constexpr double kFirstDamping = 1e-2;
+// Points within this distance of each other are one place [m].
+constexpr double kOnePlace = 1e-9;
 
 struct NormalEquations {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -23,14 +27,14 @@ struct NormalEquations {
 
 // Residual e = n·p − ρ over its standard deviation s(φ) = sqrt(nᵀ C n); s turns with the line, so
 // it is differentiated too.
-NormalEquations linearise(const std::vector<NoisyPoint>& points, double rho, double phi) {
-  const Eigen::Vector2d normal(std::cos(phi), std::sin(phi));
+NormalEquations linearise(const std::vector<NoisyPoint>& points, const Eigen::Vector2d& line) {
+  const Eigen::Vector2d normal(std::cos(line[1]), std::sin(line[1]));
   const Eigen::Vector2d along(-normal.y(), normal.x());
   NormalEquations equations;
   for (const NoisyPoint& point : points) {
     const double variance = normal.dot(point.covariance * normal);
     const double weight = 1.0 / std::sqrt(variance);
-    const double residual = (normal.dot(point.position) - rho) * weight;
+    const double residual = (normal.dot(point.position) - line[0]) * weight;
     const double turn = along.dot(point.covariance * normal) / variance;
     const Eigen::Vector2d jacobian(-weight, along.dot(point.position) * weight - residual * turn);
     equations.information += jacobian * jacobian.transpose();
@@ -63,16 +67,22 @@ std::optional<PolarLine> startLine(const std::vector<NoisyPoint>& points) {
   const Eigen::Vector2d across(-axis.y(), axis.x());
 
   // x' = a y' + b, with x' along the axis, both about the centroid.
-  double yy = 0.0;
+  double xx = 0.0;
   double xy = 0.0;
+  double yy = 0.0;
+  double weights = 0.0;
   for (const NoisyPoint& point : points) {
     const double weight = 1.0 / std::max(axis.dot(point.covariance * axis), 1e-12);
-    const Eigen::Vector2d offset = point.position - centroid;
-    yy += weight * across.dot(offset) * across.dot(offset);
-    xy += weight * across.dot(offset) * axis.dot(offset);
+    const double x = axis.dot(point.position - centroid);
+    const double y = across.dot(point.position - centroid);
+    xx += weight * x * x;
+    xy += weight * x * y;
+    yy += weight * y * y;
+    weights += weight;
   }
-  if (!(yy > 0.0)) return std::nullopt;
-  const double tilt = std::atan(xy / yy);
+  if (!(std::max(xx, yy) > kOnePlace * kOnePlace * weights)) return std::nullopt;
+  // Seen edge-on the line runs along the axis, and y' = a x' + b is the fit that tells its slope.
+  const double tilt = yy >= xx ? std::atan(xy / yy) : 0.5 * geometry::kPi - std::atan(xy / xx);
   PolarLine line;
   line.phi = bearing - tilt;
   line.rho = line.normal().dot(centroid);
@@ -81,25 +91,27 @@ std::optional<PolarLine> startLine(const std::vector<NoisyPoint>& points) {
 
 std::optional<LineFit> refineLine(const std::vector<NoisyPoint>& points, const PolarLine& start) {
   if (points.size() < 2) return std::nullopt;
-  double rho = start.rho;
-  double phi = start.phi;
+  Eigen::Vector2d line(start.rho, start.phi);
+  NormalEquations equations = linearise(points, line);
+  double damping = 0.0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const NormalEquations equations = linearise(points, rho, phi);
     if (!isDetermined(equations.information)) return std::nullopt;
-    const Eigen::Vector2d step = -equations.information.inverse() * equations.gradient;
-    rho += step[0];
-    phi += step[1];
-    if (step.dot(equations.information * step) < kConverged * kConverged) break;
+    const Eigen::Matrix2d covariance = equations.information.inverse();
+    if (equations.gradient.dot(covariance * equations.gradient) < kConverged * kConverged) {
+      return LineFit{geometry::canonical({line[0], line[1], covariance}), equations.chi_square,
+                     points.size() - 2};
+    }
+    Eigen::Matrix2d damped = equations.information;
+    damped.diagonal() *= 1.0 + damping;
+    const Eigen::Vector2d next = line - damped.inverse() * equations.gradient;
+    const NormalEquations there = linearise(points, next);
+    const bool downhill = there.chi_square < equations.chi_square;
+    damping = downhill ? 0.1 * damping : std::max(kFirstDamping, 10.0 * damping);
+    if (!downhill) continue;
+    line = next;
+    equations = there;
   }
-  const NormalEquations equations = linearise(points, rho, phi);
-  if (!isDetermined(equations.information) || !std::isfinite(rho) || !std::isfinite(phi)) {
-    return std::nullopt;
-  }
-  LineFit fit;
-  fit.line = geometry::canonical({rho, phi, equations.information.inverse()});
-  fit.chi_square = equations.chi_square;
-  fit.degrees_of_freedom = points.size() - 2;
-  return fit;
+  return std::nullopt;
 }
 
 std::optional<LineFit> fitLine(const std::vector<NoisyPoint>& points) {

@@ -29,10 +29,11 @@ struct NoisyPoint {
 /// leave the line undetermined.
 std::optional<geometry::PolarLine> startLine(const std::vector<NoisyPoint>& points);
 
-/// Maximum-likelihood line: Gauss-Newton on Σ (n·p − ρ)² / (nᵀ C n), which for noise along the
-/// beams is pears eq. 37 with each residual divided by its σ_r. The covariance is the inverse
-/// information (pears eq. 39). Nothing where the points do not determine a line or the iteration
-/// leaves the numbers.
+/// Maximum-likelihood line: damped Gauss-Newton on Σ (n·p − ρ)² / (nᵀ C n), which for noise along
+/// the beams is pears eq. 37 with each residual divided by its σ_r. The covariance is the inverse
+/// information (pears eq. 39). The minimum is the one that lies downhill of the start: where the
+/// noise lies along the beams, a start beyond the orientation of one of them leads elsewhere.
+/// Nothing where the points do not determine a line or the iteration does not settle.
 std::optional<LineFit> refineLine(const std::vector<NoisyPoint>& points,
                                   const geometry::PolarLine& start);
 
