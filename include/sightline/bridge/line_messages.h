@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include <std_msgs/Header.h>
+
+#include "sightline/LineSegmentArray.h"
+#include "sightline/geometry/line_segment.h"
+#include "sightline/scan/scan.h"
+
+namespace sightline::bridge {
+
+LineSegment toMessage(const geometry::LineSegment& segment);
+geometry::LineSegment fromMessage(const LineSegment& message);
+
+/// Stamp and frame of the scan.
+LineSegmentArray toMessage(const std::vector<geometry::LineSegment>& segments,
+                           const scan::Scan& scan);
+std::vector<geometry::LineSegment> fromMessage(const LineSegmentArray& message);
+
+}  // namespace sightline::bridge

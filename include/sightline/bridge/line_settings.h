@@ -1,0 +1,12 @@
+#pragma once
+
+#include "sightline/LineExtractorConfig.h"
+#include "sightline/lines/line_extractor_config.h"
+
+/// The settings of the line extractor as dynamic_reconfigure knows them (cfg/LineExtractor.cfg).
+namespace sightline::bridge {
+
+sightline::LineExtractorConfig toReconfigure(const lines::LineExtractorConfig& config);
+lines::LineExtractorConfig fromReconfigure(const sightline::LineExtractorConfig& config);
+
+}  // namespace sightline::bridge

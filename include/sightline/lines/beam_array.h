@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sightline/scan/scan.h"
+
+namespace sightline::lines {
+
+/// How many beams are computed side by side: a multiple of every vector width in use.
+constexpr std::size_t kLanes = 8;
+
+/// The valid returns of a scan in the order of the sweep, one array a quantity, in the frame of the
+/// scan at its stamp: what the motion of the sensor did to them has been taken out.
+struct BeamArray {
+  std::vector<double> x, y;                      ///< where the beam ended [m]
+  std::vector<double> direction_x, direction_y;  ///< unit vector along the beam
+  std::vector<double> range_variance;            ///< along the beam [m²]
+  std::vector<double> across_variance;           ///< across the beam [m²]
+  /// Index in the scan; past the seam of a full circle it counts on from the number of beams.
+  std::vector<std::uint32_t> beam;
+  std::size_t round = 0;  ///< returns of one round
+  std::size_t size = 0;   ///< `round`, or twice that on a full circle
+
+  /// Takes a scan in. On a full circle the round starts at `first_beam` and every return stands
+  /// here twice, one round apart, so that nothing is cut at the seam. The arrays are longer than
+  /// `size` by at least kLanes, so that whole lanes may be read from any return.
+  void assign(const scan::Scan& scan, std::size_t first_beam = 0);
+
+ private:
+  void reserve(std::size_t returns);
+  void appendRange(const scan::Scan& scan, std::size_t first, std::size_t last, std::size_t shift);
+  void appendMoved(const scan::Scan& scan, std::size_t beam);
+  void repeatRound(std::size_t beams);
+  void pad();
+};
+
+}  // namespace sightline::lines

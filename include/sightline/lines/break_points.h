@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+
+#include "sightline/lines/beam_array.h"
+#include "sightline/lines/gap.h"
+#include "sightline/lines/piece.h"
+
+namespace sightline::lines {
+
+/// Moves the ends of pieces to where the beams say they are, their lines held.
+class BreakPoints {
+ public:
+  BreakPoints(const BeamArray& beams, const LineExtractorConfig& config);
+
+  /// Adds the returns after (before) a piece that are on its line, up to (down to) `limit`. Two in
+  /// a row are needed past a stray one.
+  void extendForward(Piece& piece, std::size_t limit) const;
+  void extendBackward(Piece& piece, std::size_t limit) const;
+  /// Takes returns off the ends that are not within the gate.
+  void trim(Piece& piece) const;
+  /// Puts the break between two pieces where their lines together explain the returns best.
+  void separate(Piece& before, Piece& after) const;
+
+ private:
+  std::size_t bestBreak(const Piece& before, const Piece& after, std::size_t low,
+                        std::size_t high) const;
+  bool isOn(const LineEstimate& line, std::size_t i) const;
+  double positionOn(const LineEstimate& line, std::size_t i) const;
+
+  const BeamArray& beams_;
+  Gap gap_;
+  double gate_squared_;
+};
+
+}  // namespace sightline::lines

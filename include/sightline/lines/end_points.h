@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+
+#include "sightline/geometry/line_segment.h"
+#include "sightline/lines/beam_array.h"
+#include "sightline/lines/piece.h"
+#include "sightline/scan/scan.h"
+
+namespace sightline::lines {
+
+/// Where a wall ends and why.
+struct EndPoint {
+  double position = 0.0;  ///< along the line [m]
+  double variance = 0.0;  ///< [m²]
+  geometry::EndKind kind = geometry::EndKind::kUnknown;
+};
+
+/// Finds the ends of finished pieces. A wall that meets another one ends where the two lines cross;
+/// any other end lies between the last beam on the wall and the first one that passes it.
+class EndPoints {
+ public:
+  EndPoints(const scan::Scan& scan, const BeamArray& beams) : scan_(scan), beams_(beams) {}
+
+  /// `neighbour` is the piece met next in the direction of the end, null where there is none; on a
+  /// full circle its return numbers may be a round off.
+  EndPoint start(const Piece& piece, const Piece* neighbour) const;
+  EndPoint end(const Piece& piece, const Piece* neighbour) const;
+
+ private:
+  enum class Side { kStart, kEnd };
+  /// Where a beam would meet the line.
+  struct Meeting {
+    double position;
+    double range;
+    double variance;  // of the position, from the uncertainty of the line
+    bool exists;
+  };
+  EndPoint find(const Piece& piece, const Piece* neighbour, Side side) const;
+  EndPoint edge(const Piece& piece, std::size_t last, Side side) const;
+  bool corner(const Piece& piece, const Piece& neighbour, std::size_t last, std::size_t next,
+              EndPoint& point) const;
+  Meeting meet(const LineEstimate& line, std::size_t beam) const;
+  /// The first beam of the scan past `beam` that says something; `beam` itself where none does.
+  std::size_t firstTelling(std::size_t beam, Side side) const;
+
+  const scan::Scan& scan_;
+  const BeamArray& beams_;
+};
+
+}  // namespace sightline::lines

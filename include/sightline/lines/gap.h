@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "sightline/lines/beam_array.h"
+#include "sightline/lines/line_extractor_config.h"
+
+namespace sightline::lines {
+
+/// Whether a wall may go on from one return to a later one.
+class Gap {
+ public:
+  explicit Gap(const LineExtractorConfig& config)
+      : max_length_(config.max_gap),
+        max_missing_(static_cast<std::uint32_t>(config.max_gap_beams)) {}
+
+  /// No beam between neighbours is missing, or too few are for it to matter.
+  bool isSmall(const BeamArray& beams, std::size_t from, std::size_t to) const {
+    return beams.beam[to] - beams.beam[from] <= 1 + max_missing_;
+  }
+
+  /// From the return `from` to the return `to`, `length` apart on the line, with every return
+  /// between them off the line. One stray return is no opening, nor are a few beams that came back
+  /// with nothing; anything else is judged by its length.
+  bool mayBridge(const BeamArray& beams, std::size_t from, std::size_t to, double length) const {
+    return std::abs(length) <= max_length_ || (to - from <= 2 && isSmall(beams, from, to));
+  }
+
+ private:
+  double max_length_;
+  std::uint32_t max_missing_;
+};
+
+}  // namespace sightline::lines

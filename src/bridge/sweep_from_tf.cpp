@@ -1,0 +1,46 @@
+#include "sightline/bridge/sweep_from_tf.h"
+
+#include <optional>
+
+#include "sightline/bridge/pose_conversion.h"
+#include "sightline/bridge/time.h"
+#include "sightline/pipeline/scan_motion.h"
+
+namespace sightline::bridge {
+
+namespace {
+
+// Older than this, the newest motion says nothing about the present one.
+const ros::Duration kOldest(0.5);
+
+// In the sensor's own frame and in three dimensions before it is taken to the plane: that holds for
+// a sensor mounted on its head as well.
+geometry::Pose2 motionBetween(const tf2_ros::Buffer& transforms, const std::string& frame,
+                              const ros::Time& from, const ros::Time& to,
+                              const std::string& fixed_frame) {
+  return toPose2(transforms.lookupTransform(frame, from, frame, to, fixed_frame).transform);
+}
+
+}  // namespace
+
+bool SweepFromTf::addMotion(scan::Scan& scan) const {
+  const auto poseAt = [&](std::int64_t stamp) -> std::optional<geometry::Pose2> {
+    if (stamp == scan.stamp) return geometry::Pose2();
+    try {
+      const ros::Time newest =
+          transforms_.lookupTransform(fixed_frame_, scan.frame, ros::Time(0)).header.stamp;
+      const ros::Time wanted = timeOf(stamp);
+      // A transform that never changes has no time and moves nothing.
+      if (newest.isZero()) return geometry::Pose2();
+      if (wanted - newest > kOldest) return std::nullopt;
+      const ros::Time end = std::min(wanted, newest);
+      return motionBetween(transforms_, scan.frame, end - (wanted - timeOf(scan.stamp)), end,
+                           fixed_frame_);
+    } catch (const tf2::TransformException&) {
+      return std::nullopt;
+    }
+  };
+  return pipeline::addMotion(scan, poseAt, geometry::Pose2()).has_value();
+}
+
+}  // namespace sightline::bridge

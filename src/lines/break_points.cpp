@@ -1,0 +1,108 @@
+#include "sightline/lines/break_points.h"
+
+#include <algorithm>
+
+#include "sightline/lines/beam_residuals.h"
+
+namespace sightline::lines {
+
+namespace {
+
+// How far a break may move at once, and what a piece keeps of itself.
+constexpr std::size_t kReach = 24;
+constexpr std::size_t kKeep = 3;
+
+// Squared normalised residuals, bounded by the gate: a stray return costs the same wherever it is.
+struct Costs {
+  double value[kLanes];
+};
+
+Costs costsOf(const BeamArray& beams, std::size_t first, const LineEstimate& line, double bound) {
+  const BeamResiduals residuals = residualsOf(beams, first, line);
+  Costs costs;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const double e = residuals.distance[i];
+    costs.value[i] = std::min(e * e * residuals.weight[i], bound);
+  }
+  return costs;
+}
+
+}  // namespace
+
+BreakPoints::BreakPoints(const BeamArray& beams, const LineExtractorConfig& config)
+    : beams_(beams), gap_(config), gate_squared_(config.gate * config.gate) {}
+
+bool BreakPoints::isOn(const LineEstimate& line, std::size_t i) const {
+  const BeamResiduals residuals = residualsOf(beams_, i, line);
+  return residuals.distance[0] * residuals.distance[0] * residuals.weight[0] <= gate_squared_;
+}
+
+double BreakPoints::positionOn(const LineEstimate& line, std::size_t i) const {
+  return residualsOf(beams_, i, line).position[0];
+}
+
+void BreakPoints::extendForward(Piece& piece, std::size_t limit) const {
+  double position = positionOn(piece.line, piece.end - 1);
+  for (std::size_t i = piece.end; i < limit; ++i) {
+    const double length = positionOn(piece.line, i) - position;
+    if (!gap_.mayBridge(beams_, piece.end - 1, i, length)) return;
+    const bool adjoins = i == piece.end;
+    if (!isOn(piece.line, i)) continue;
+    if (!adjoins && (i + 1 >= limit || !isOn(piece.line, i + 1))) continue;
+    position += length;
+    piece.end = i + 1;
+  }
+}
+
+void BreakPoints::extendBackward(Piece& piece, std::size_t limit) const {
+  double position = positionOn(piece.line, piece.first);
+  for (std::size_t i = piece.first; i-- > limit;) {
+    const double length = positionOn(piece.line, i) - position;
+    if (!gap_.mayBridge(beams_, i, piece.first, length)) return;
+    const bool adjoins = i + 1 == piece.first;
+    if (!isOn(piece.line, i)) continue;
+    if (!adjoins && (i <= limit || !isOn(piece.line, i - 1))) continue;
+    position += length;
+    piece.first = i;
+  }
+}
+
+void BreakPoints::trim(Piece& piece) const {
+  while (piece.end > piece.first + 1 && !isOn(piece.line, piece.end - 1)) --piece.end;
+  while (piece.first + 1 < piece.end && !isOn(piece.line, piece.first)) ++piece.first;
+}
+
+void BreakPoints::separate(Piece& before, Piece& after) const {
+  const std::size_t low = std::max(before.first + kKeep, before.end - std::min(before.end, kReach));
+  const std::size_t high = std::min(after.end - std::min(after.end, kKeep), after.first + kReach);
+  if (low >= high || after.first - before.end > kReach) return;
+  const std::size_t best = bestBreak(before, after, low, high);
+  if (best < before.end) before.end = best;
+  if (best > after.first) after.first = best;
+  trim(before);
+  trim(after);
+  extendForward(before, best);
+  extendBackward(after, best);
+}
+
+std::size_t BreakPoints::bestBreak(const Piece& before, const Piece& after, std::size_t low,
+                                   std::size_t high) const {
+  // Of the difference to a break at `low`.
+  double cost = 0.0;
+  double least = 0.0;
+  std::size_t best = low;
+  for (std::size_t first = low; first < high; first += kLanes) {
+    const Costs as_before = costsOf(beams_, first, before.line, gate_squared_);
+    const Costs as_after = costsOf(beams_, first, after.line, gate_squared_);
+    for (std::size_t i = 0; i < kLanes && first + i < high; ++i) {
+      cost += as_before.value[i] - as_after.value[i];
+      if (cost < least) {
+        least = cost;
+        best = first + i + 1;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace sightline::lines

@@ -1,0 +1,31 @@
+#include "sightline/lines/line_extractor_config.h"
+
+namespace sightline::lines {
+
+void LineExtractorConfig::visit(config::FieldVisitor& visitor) {
+  visitor.number("gate", gate,
+                 {"sigma",
+                  {1.0, 10.0},
+                  "validation gate g (pears eq. 33); the tests of lines use the same odds"});
+  visitor.number("misfit", misfit,
+                 {"1",
+                  {1.0, 10.0},
+                  "a line whose residuals are this many times what the noise allows is no wall"});
+  visitor.number("start_phi_sigma", start_phi_sigma,
+                 {"rad",
+                  {0.01, 0.5},
+                  "the batch start (pears section 4.6) collects beams until the direction is known "
+                  "this well"});
+  visitor.number("max_gap", max_gap,
+                 {"m", {0.0, 100.0}, "a wall may be interrupted this far and stays one segment"});
+  visitor.integer("max_gap_beams", max_gap_beams,
+                  {"beams",
+                   {0.0, 1000.0},
+                   "this many beams in a row without a return do not interrupt a wall, however far "
+                   "they are apart"});
+  visitor.number("min_length", min_length, {"m", {0.0, 100.0}, "shorter segments are left out"});
+  visitor.integer("min_beams", min_beams,
+                  {"beams", {3.0, 1e6}, "segments of fewer beams are left out"});
+}
+
+}  // namespace sightline::lines

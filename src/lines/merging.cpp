@@ -1,0 +1,82 @@
+#include "sightline/lines/merging.h"
+
+#include <cmath>
+
+#include "sightline/lines/beam_residuals.h"
+#include "sightline/lines/chi_square.h"
+
+namespace sightline::lines {
+
+namespace {
+
+// χ² with two degrees of freedom, at the odds of a standard normal beyond ±sigmas.
+double twoDofLimit(double sigmas) {
+  return -2.0 * std::log(std::erfc(sigmas / std::sqrt(2.0)));
+}
+
+// Information about a line in a frame whose origin lies further along it.
+Information shifted(const Information& info, double position) {
+  return {info.rho_rho, info.rho_phi + position * info.rho_rho,
+          info.phi_phi + position * (2.0 * info.rho_phi + position * info.rho_rho)};
+}
+
+NormalEquations sum(const NormalEquations& a, const NormalEquations& b) {
+  NormalEquations result = a;
+  result.information.rho_rho += b.information.rho_rho;
+  result.information.rho_phi += b.information.rho_phi;
+  result.information.phi_phi += b.information.phi_phi;
+  result.gradient_rho += b.gradient_rho;
+  result.gradient_phi += b.gradient_phi;
+  return result;
+}
+
+}  // namespace
+
+double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after, double position) {
+  const double origin_x = before.rho * before.normal_x + position * before.alongX();
+  const double origin_y = before.rho * before.normal_y + position * before.alongY();
+  const double rho = after.rho - after.normal_x * origin_x - after.normal_y * origin_y;
+  const double phi = before.normal_x * after.normal_y - before.normal_y * after.normal_x;
+  const Information a = shifted(before.information, position);
+  const Information b =
+      shifted(after.information, after.alongX() * origin_x + after.alongY() * origin_y);
+  const double da = 1.0 / a.determinant();
+  const double db = 1.0 / b.determinant();
+  const double rho_rho = da * a.phi_phi + db * b.phi_phi;
+  const double rho_phi = -da * a.rho_phi - db * b.rho_phi;
+  const double phi_phi = da * a.rho_rho + db * b.rho_rho;
+  const double determinant = rho_rho * phi_phi - rho_phi * rho_phi;
+  return (phi_phi * rho * rho - 2.0 * rho_phi * rho * phi + rho_rho * phi * phi) / determinant;
+}
+
+Merging::Merging(const BeamArray& beams, const LineExtractorConfig& config)
+    : beams_(beams),
+      gap_(config),
+      gate_(config.gate),
+      misfit_(config.misfit),
+      distance_limit_(twoDofLimit(config.gate)) {}
+
+bool Merging::merge(Piece& before, const Piece& after) const {
+  const LineEstimate& line = before.line;
+  if (line.normal_x * after.line.normal_x + line.normal_y * after.line.normal_y < 0.5) return false;
+  const double position = residualsOf(beams_, before.end - 1, line).position[0];
+  const double next_position = residualsOf(beams_, after.first, line).position[0];
+  if (!gap_.mayBridge(beams_, before.end - 1, after.first, next_position - position)) return false;
+  if (mahalanobisSquared(line, after.line, 0.5 * (position + next_position)) > distance_limit_) {
+    return false;
+  }
+  Piece joined = before;
+  joined.end = after.end;
+  if (after.beams > before.beams) joined.line = after.line;
+  constexpr double kEverything = 1e12;
+  const NormalEquations both =
+      sum(linearise(beams_, before.first, before.end, joined.line, kEverything),
+          linearise(beams_, after.first, after.end, joined.line, kEverything));
+  stepTo(both, joined.line);
+  if (!refine(beams_, gate_ * gate_, joined)) return false;
+  if (joined.chi_square > chiSquareLimit(gate_, joined.beams - 2) * misfit_ * misfit_) return false;
+  before = joined;
+  return true;
+}
+
+}  // namespace sightline::lines

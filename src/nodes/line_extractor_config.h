@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "sightline/bridge/line_markers.h"
+#include "sightline/config/fields.h"
+#include "sightline/lines/line_extractor_config.h"
+#include "sightline/scan/noise_model.h"
+
+namespace sightline::nodes {
+
+/// Parameters of the node line_extractor.
+struct LineExtractorNodeConfig {
+  std::string fixed_frame;
+  scan::NoiseModel noise;
+  lines::LineExtractorConfig lines;
+  bridge::LineMarkersConfig markers;
+
+  void visit(config::FieldVisitor& visitor) {
+    visitor.text("fixed_frame", fixed_frame,
+                 "a frame in which the world stands still, such as odom; with it the motion of the "
+                 "scanner during the sweep is taken from tf and corrected");
+    visitor.group("noise", noise);
+    visitor.group("lines", lines);
+    visitor.group("markers", markers);
+  }
+};
+
+}  // namespace sightline::nodes
