@@ -19,6 +19,7 @@ PoseFilter::PoseFilter(const TrackerConfig& config, const geometry::UncertainPos
 }
 
 void PoseFilter::predict(const Pose2& step) {
+  beginSweep(Eigen::Matrix3d::Zero());
   if (config_.method == Method::kFull) {
     predictFull(step);
   } else {
@@ -26,13 +27,19 @@ void PoseFilter::predict(const Pose2& step) {
   }
 }
 
+void PoseFilter::beginSweep(const Eigen::Matrix3d& motion_covariance) {
+  covariance_.rightCols<3>().setZero();
+  covariance_.bottomRows<3>().setZero();
+  covariance_.bottomRightCorner<3, 3>() = motion_covariance;
+}
+
 void PoseFilter::predictFull(const Pose2& step) {
   const Pose2 moved = motion::expectedStep(config_.odometry, step, scale_);
   Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
   F.topLeftCorner<3, 3>() = geometry::composeJacobianFirst(pose_, moved);
-  F.topRightCorner<2, 1>() = pose_.rotation() * moved.translation() / scale_;
+  F.topRightCorner<2, 1>() = pose_.rotation() * step.translation();
   const Eigen::Matrix3d G = geometry::composeJacobianSecond(pose_);
-  covariance_ = F * covariance_ * F.transpose();
+  covariance_.topLeftCorner<4, 4>() = F * covariance() * F.transpose();
   covariance_.topLeftCorner<3, 3>() +=
       G * motion::stepCovariance(config_.odometry, moved) * G.transpose();
   pose_ = pose_ * moved;
@@ -49,16 +56,20 @@ void PoseFilter::predictPlain(const Pose2& step) {
   pose_ = pose_ * moved;
 }
 
-PoseFilter::Innovation PoseFilter::innovation(const PolarLine& measured_base,
-                                              const PolarLine& wall_map) const {
+PoseFilter::Innovation PoseFilter::innovation(
+    const PolarLine& measured_base, const PolarLine& wall_map,
+    const Eigen::Matrix<double, 2, 3>& motion_jacobian) const {
   const Pose2 T_base_map = pose_.inverse();
   const PolarLine predicted = geometry::transform(T_base_map, wall_map);
-  Innovation result;
   const PolarLine measured = geometry::describedLike(predicted, measured_base);
+  // Described by the opposite normal, ρ changes its sign and φ does not.
+  const Eigen::Vector2d sense(measured.rho == measured_base.rho ? 1.0 : -1.0, 1.0);
+  Innovation result;
   result.value = {measured.rho - predicted.rho, geometry::wrapAngle(measured.phi - predicted.phi)};
   result.jacobian.setZero();
   result.jacobian.leftCols<3>() =
       geometry::transformJacobianPose(T_base_map, wall_map) * geometry::inverseJacobian(pose_);
+  result.jacobian.rightCols<3>() = sense.asDiagonal() * motion_jacobian;
   result.covariance =
       result.jacobian * covariance_ * result.jacobian.transpose() + measured.covariance;
   result.nis = result.value.dot(result.covariance.inverse() * result.value);
@@ -66,9 +77,9 @@ PoseFilter::Innovation PoseFilter::innovation(const PolarLine& measured_base,
 }
 
 void PoseFilter::update(const Innovation& innovation) {
-  const Eigen::Matrix<double, 4, 2> gain =
+  const Eigen::Matrix<double, 7, 2> gain =
       covariance_ * innovation.jacobian.transpose() * innovation.covariance.inverse();
-  const Eigen::Vector4d correction = gain * innovation.value;
+  const Eigen::Matrix<double, 7, 1> correction = gain * innovation.value;
   pose_ = Pose2(pose_.coordinates() + correction.head<3>());
   scale_ += correction[3];
   covariance_ -= gain * innovation.covariance * gain.transpose();

@@ -113,8 +113,8 @@ void RoomTracker::Impl::applyWalls(PoseFilter& filter, std::vector<WallObservati
   for (const std::size_t i : order) {
     WallObservation& wall = walls[i];
     if (!wall.accepted) continue;
-    const auto innovation =
-        filter.innovation(wall.fit, map_.rooms()[wall.room].walls[wall.wall].segment.line());
+    const auto innovation = filter.innovation(
+        wall.fit, map_.rooms()[wall.room].walls[wall.wall].segment.line(), wall.motion_jacobian);
     wall.innovation = innovation.value;
     wall.nis = innovation.nis;
     wall.accepted = innovation.nis <= config_.wall.max_nis;
@@ -147,6 +147,7 @@ std::vector<WallIndex> RoomTracker::Impl::wallsInSight() const {
 Explanation RoomTracker::Impl::explain(const PoseFilter& prior, const scan::Scan& scan,
                                        const Pose2& T_base_sensor, const Sweep& sweep) const {
   Explanation explanation{prior, finder_.find(prior, map_, wallsInSight(), sweep), {}};
+  explanation.filter.beginSweep(sweep.motion_covariance);
   applyWalls(explanation.filter, explanation.walls);
   explanation.fit = fitToRoom(scan, explanation.filter.pose().mean * T_base_sensor,
                               map_.rooms()[room_], kWallTolerance);
@@ -195,7 +196,7 @@ TrackerState RoomTracker::Impl::judge(const RoomFit& fit) {
   const bool tells = fit.on_wall + fit.beyond >= kEvidence;
   if (tells) misfits_ = fit.quality() < config_.lost_quality ? misfits_ + 1 : 0;
   if (misfits_ >= config_.lost_scans) return TrackerState::kLost;
-  const Eigen::Matrix4d& P = filter_->covariance();
+  const Eigen::Matrix4d P = filter_->covariance();
   const double position = std::sqrt(std::max(P(0, 0), P(1, 1)));
   const bool vague = position > config_.degraded_position_sigma ||
                      std::sqrt(P(2, 2)) > config_.degraded_heading_sigma;

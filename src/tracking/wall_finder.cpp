@@ -5,6 +5,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include <Eigen/LU>
+
 #include "sightline/fitting/line_fit.h"
 
 namespace sightline::tracking {
@@ -31,12 +33,24 @@ double pointSigma(const BeamPoint& point, const Eigen::Vector2d& normal) {
   return std::sqrt(normal.dot(point.covariance * normal));
 }
 
-// When in the sweep a wall was met, on average: that share of what is not known of the motion is in
-// its line.
-double meanSweepShare(const std::vector<const BeamPoint*>& points) {
-  double sum = 0.0;
-  for (const BeamPoint* point : points) sum += point->sweep_share;
-  return sum / static_cast<double>(points.size());
+// How a fit follows the points that the motion of the sensor carries along, each by its share of
+// the sweep: the normal equations of the fit, with the points' displacement along the normal on
+// their right-hand side.
+Eigen::Matrix<double, 2, 3> motionJacobian(const std::vector<const BeamPoint*>& points,
+                                           const PolarLine& line) {
+  const Eigen::Vector2d normal = line.normal();
+  const Eigen::Vector2d along = line.direction();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Matrix<double, 2, 3> moved = Eigen::Matrix<double, 2, 3>::Zero();
+  for (const BeamPoint* point : points) {
+    const double weight = 1.0 / squared(pointSigma(*point, normal));
+    const double position = along.dot(point->position);
+    const Eigen::Vector2d residual_by_line(-1.0, position);
+    const Eigen::RowVector3d residual_by_motion(normal.x(), normal.y(), -position);
+    information += weight * residual_by_line * residual_by_line.transpose();
+    moved += weight * point->sweep_share * residual_by_line * residual_by_motion;
+  }
+  return -information.inverse() * moved;
 }
 
 // A beam near a corner lies in the gates of two walls but met one: the one it is nearest to.
@@ -100,7 +114,8 @@ PoseFilter WallFinder::refineByHough(const PoseFilter& predicted, const Walls& w
     coarse.phi += peaks.turn;
     coarse.covariance << squared(config_.hough.distance_bin), 0.0, 0.0,
         squared(config_.hough.angle_bin);
-    refined.update(refined.innovation(geometry::canonical(coarse), walls[i]->segment.line()));
+    refined.update(refined.innovation(geometry::canonical(coarse), walls[i]->segment.line(),
+                                      Eigen::Matrix<double, 2, 3>::Zero()));
   }
   return refined;
 }
@@ -145,7 +160,6 @@ void WallFinder::addMapUncertainty(const std::vector<const BeamPoint*>& points,
 }
 
 void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const Pose2& T_base_map,
-                         const Eigen::Matrix3d& motion_covariance,
                          WallObservation& observation) const {
   // Least squares over the beams near the line, which is moved to fit them until they stay the
   // same.
@@ -170,9 +184,7 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
   observation.fit = line;
   observation.fit.covariance *= std::max(1.0, excess);
   addMapUncertainty(near, observation.fit);
-  observation.fit = geometry::transform(
-      geometry::UncertainPose2{{}, squared(meanSweepShare(near)) * motion_covariance},
-      observation.fit);
+  observation.motion_jacobian = motionJacobian(near, line);
   for (const BeamPoint* point : near) observation.accepted_beams.push_back(point->beam);
   observation.accepted = true;
 }
@@ -195,8 +207,7 @@ std::vector<WallObservation> WallFinder::find(const PoseFilter& predicted,
     observations[i].wall = indices[i].wall;
     observations[i].gate = first[i].gate.size();
     observations[i].beams_in_gate = first[i].points.size();
-    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), sweep.motion_covariance,
-            observations[i]);
+    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), observations[i]);
   }
   return observations;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 
 #include "sightline/geometry/polar_line.h"
@@ -17,15 +19,20 @@ class PoseFilter {
 
   /// Moves by a step of odometry, given in the body frame at its start.
   void predict(const geometry::Pose2& step);
+  /// Begins a scan: `motion_covariance` is of the motion over its sweep, in coordinates of the base
+  /// frame.
+  void beginSweep(const Eigen::Matrix3d& motion_covariance);
   /// What a measured line of the base frame says against its wall in the map, first order.
   struct Innovation {
     Eigen::Vector2d value;                 ///< (ρ, φ) measured less predicted, heading wrapped
     Eigen::Matrix2d covariance;            ///< S, of the value
-    Eigen::Matrix<double, 2, 4> jacobian;  ///< of the prediction by the state
+    Eigen::Matrix<double, 2, 7> jacobian;  ///< of the prediction by the state
     double nis = 0.0;
   };
+  /// `motion_jacobian` is of the measured line by the motion over the sweep.
   Innovation innovation(const geometry::PolarLine& measured_base,
-                        const geometry::PolarLine& wall_map) const;
+                        const geometry::PolarLine& wall_map,
+                        const Eigen::Matrix<double, 2, 3>& motion_jacobian) const;
   /// Takes the innovation in (jensfelt eq. 9).
   void update(const Innovation& innovation);
   /// Adds independent uncertainty [m, rad].
@@ -36,8 +43,8 @@ class PoseFilter {
   geometry::UncertainPose2 pose() const;
   double scale() const { return scale_; }
   double scaleSigma() const { return std::sqrt(covariance_(3, 3)); }
-  /// The whole state's covariance, ordered x, y, θ, s.
-  const Eigen::Matrix4d& covariance() const { return covariance_; }
+  /// Covariance of x, y, θ and s.
+  Eigen::Matrix4d covariance() const { return covariance_.topLeftCorner<4, 4>(); }
 
  private:
   void predictFull(const geometry::Pose2& step);
@@ -46,7 +53,7 @@ class PoseFilter {
   TrackerConfig config_;
   geometry::Pose2 pose_;
   double scale_;
-  Eigen::Matrix4d covariance_ = Eigen::Matrix4d::Zero();
+  Eigen::Matrix<double, 7, 7> covariance_ = Eigen::Matrix<double, 7, 7>::Zero();
 };
 
 }  // namespace sightline::tracking

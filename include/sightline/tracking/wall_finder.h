@@ -34,7 +34,7 @@ class WallFinder {
   std::vector<GatedWall> gate(const PoseFilter& filter, const Walls& walls,
                               const std::vector<BeamPoint>& points) const;
   void fitWall(const GatedWall& gated, const world::Wall& wall, const geometry::Pose2& T_base_map,
-               const Eigen::Matrix3d& motion_covariance, WallObservation& observation) const;
+               WallObservation& observation) const;
   std::vector<const BeamPoint*> nearLine(const std::vector<const BeamPoint*>& points,
                                          const geometry::PolarLine& line, double slack) const;
   bool isEnough(const std::vector<const BeamPoint*>& points, const geometry::PolarLine& line) const;

@@ -26,6 +26,8 @@ struct WallObservation {
   std::vector<std::size_t> accepted_beams;  ///< that the line was fitted to
   bool accepted = false;                    ///< whether it updated the pose
   geometry::PolarLine fit;                  ///< in the base frame, where any
+  /// ∂(ρ, φ)fit / ∂(motion from the first beam to the last, in coordinates of the base frame).
+  Eigen::Matrix<double, 2, 3> motion_jacobian = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Vector2d innovation =
       Eigen::Vector2d::Zero();  ///< (ρ, φ) measured less predicted [m, rad]
   double nis = 0.0;             ///< normalised innovation squared, 2 degrees of freedom
