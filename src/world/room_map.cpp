@@ -14,6 +14,8 @@ using geometry::Segment;
 
 // A door may stand this far from the walls it pierces: half the thickest wall between two rooms.
 constexpr double kMaxDoorDistance = 0.5;
+// Drawn by hand, what lies in a wall may overshoot its corner by this much.
+constexpr double kSlack = 0.02;
 
 Eigen::Vector2d pointOf(const Node& node) {
   const auto xy = node.numbers(2);
@@ -36,9 +38,19 @@ double signedArea(const std::vector<Eigen::Vector2d>& corners) {
   return 0.5 * twice;
 }
 
+bool onOppositeSides(const Segment& line, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return line.leftNormal().dot(a - line.start) * line.leftNormal().dot(b - line.start) < 0.0;
+}
+
+bool cross(const Segment& a, const Segment& b) {
+  return onOppositeSides(a, b.start, b.end) && onOppositeSides(b, a.start, a.end);
+}
+
 struct Outline {
   std::vector<Eigen::Vector2d> corners;  // in the room's frame, counter-clockwise
   std::vector<std::string> names;        // of the wall from each corner to the next
+
+  Segment side(std::size_t i) const { return {corners[i], corners[(i + 1) % corners.size()]}; }
 };
 
 Outline rectangle(const Node& size) {
@@ -47,6 +59,16 @@ Outline rectangle(const Node& size) {
   const double x = 0.5 * items[0].number(config::kPositive);
   const double y = 0.5 * items[1].number(config::kPositive);
   return {{{-x, -y}, {x, -y}, {x, y}, {-x, y}}, {"south", "east", "north", "west"}};
+}
+
+void checkSides(const Node& node, const Outline& outline) {
+  for (std::size_t i = 0; i < outline.corners.size(); ++i) {
+    const Segment side = outline.side(i);
+    if (!(side.length() > 0.0)) node.fail(fmt::format("wall {} has no length", i));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (cross(side, outline.side(j))) node.fail(fmt::format("walls {} and {} cross", j, i));
+    }
+  }
 }
 
 Outline polygon(const Node& node) {
@@ -59,6 +81,7 @@ Outline polygon(const Node& node) {
   if (!(signedArea(outline.corners) > 0.0)) {
     node.fail("the corners have to run counter-clockwise round an area");
   }
+  checkSides(node, outline);
   return outline;
 }
 
@@ -70,25 +93,40 @@ Outline outlineOf(const Node& room) {
 }
 
 std::vector<Span> spansOf(const Node& wall, double length) {
-  // Drawn by hand, a span may overshoot the corner by a little.
-  constexpr double kSlack = 0.02;
   std::vector<Span> spans;
   for (const Node& item : wall.items()) {
     const auto ends = item.numbers(2);
-    if (ends[0] < -kSlack || ends[1] > length + kSlack || ends[0] >= ends[1]) {
+    const Span span{std::max(0.0, ends[0]), std::min(length, ends[1])};
+    if (ends[0] < -kSlack || ends[1] > length + kSlack || span.from >= span.to) {
       item.fail(
           fmt::format("[{}, {}] is no stretch of a wall of {:.3f} m", ends[0], ends[1], length));
     }
-    if (!spans.empty() && ends[0] < spans.back().to) item.fail("overlaps the span before it");
-    spans.push_back({std::max(0.0, ends[0]), std::min(length, ends[1])});
+    if (!spans.empty() && span.from < spans.back().to) item.fail("overlaps the span before it");
+    spans.push_back(span);
   }
   return spans;
 }
 
+std::string wallNames(const Room& room) {
+  std::vector<std::string> names;
+  for (const Wall& wall : room.walls) names.push_back(wall.name);
+  return fmt::format("its walls are: {}", fmt::join(names, ", "));
+}
+
 void readWall(const Node& node, Wall& wall) {
   node.allowOnly({"spans", "open"});
+  if (node.has("spans") && node.has("open")) node.fail("either 'spans' or 'open', not both");
   if (node.has("spans")) wall.spans = spansOf(node.at("spans"), wall.segment.length());
   if (node.has("open") && node.at("open").flag()) wall.spans.clear();
+}
+
+void readWalls(const Node& node, Room& room) {
+  for (const auto& [name, wall_node] : node.entries()) {
+    const auto wall = std::find_if(room.walls.begin(), room.walls.end(),
+                                   [&key = name](const Wall& w) { return w.name == key; });
+    if (wall == room.walls.end()) wall_node.fail("no such wall in this room; " + wallNames(room));
+    readWall(wall_node, *wall);
+  }
 }
 
 void cut(std::vector<Span>& spans, const Span& gap) {
@@ -106,6 +144,24 @@ std::size_t nearestWall(const Room& room, const Eigen::Vector2d& point) {
   };
   const auto wall = std::min_element(room.walls.begin(), room.walls.end(), nearer);
   return static_cast<std::size_t>(wall - room.walls.begin());
+}
+
+// Opens the wall that the door stands in and returns its index.
+std::size_t pierce(const Node& node, const Door& door, Room& room) {
+  const std::size_t index = nearestWall(room, door.centre_map);
+  Wall& wall = room.walls[index];
+  const double distance = wall.segment.distance(door.centre_map);
+  if (distance > kMaxDoorDistance) {
+    node.fail(
+        fmt::format("joins nothing: {:.2f} m from the nearest wall of '{}'", distance, room.name));
+  }
+  if (door.width > wall.segment.length() + kSlack) {
+    node.at("width").fail(fmt::format("{} m is wider than wall {} of '{}', {:.3f} m", door.width,
+                                      wall.name, room.name, wall.segment.length()));
+  }
+  const double middle = wall.segment.along(door.centre_map);
+  cut(wall.spans, {middle - 0.5 * door.width, middle + 0.5 * door.width});
+  return index;
 }
 
 }  // namespace
@@ -139,24 +195,13 @@ RoomMap::RoomMap(const Node& document) {
 
 void RoomMap::addRoom(const std::string& name, const Node& node) {
   node.allowOnly({"size", "polygon", "pose", "walls"});
-  if (find(name)) node.fail("a second room of this name");
   const Outline outline = outlineOf(node);
   Room room{name, poseOf(node), {}};
   for (std::size_t i = 0; i < outline.corners.size(); ++i) {
-    const Segment side{outline.corners[i], outline.corners[(i + 1) % outline.corners.size()]};
-    if (!(side.length() > 0.0)) node.fail(fmt::format("wall {} has no length", outline.names[i]));
+    const Segment side = outline.side(i);
     room.walls.push_back({outline.names[i], room.T_map_room * side, {{0.0, side.length()}}});
   }
-  if (node.has("walls")) {
-    for (const auto& [wall_name, wall_node] : node.at("walls").entries()) {
-      const auto wall = std::find_if(room.walls.begin(), room.walls.end(),
-                                     [&key = wall_name](const Wall& w) { return w.name == key; });
-      if (wall == room.walls.end()) {
-        wall_node.fail(fmt::format("no such wall; known are: {}", fmt::join(outline.names, ", ")));
-      }
-      readWall(wall_node, *wall);
-    }
-  }
+  if (node.has("walls")) readWalls(node.at("walls"), room);
   rooms_.push_back(std::move(room));
 }
 
@@ -176,16 +221,7 @@ void RoomMap::addDoor(const Node& node) {
   if (node.has("threshold")) door.threshold = node.at("threshold").flag();
   for (std::size_t side = 0; side < 2; ++side) {
     door.rooms[side] = roomNamed(names[side]);
-    Room& room = rooms_[door.rooms[side]];
-    door.walls[side] = nearestWall(room, door.centre_map);
-    Wall& wall = room.walls[door.walls[side]];
-    const double distance = wall.segment.distance(door.centre_map);
-    if (distance > kMaxDoorDistance) {
-      node.fail(fmt::format("joins nothing: {:.2f} m from the nearest wall of '{}'", distance,
-                            room.name));
-    }
-    const double middle = wall.segment.along(door.centre_map);
-    cut(wall.spans, {middle - 0.5 * door.width, middle + 0.5 * door.width});
+    door.walls[side] = pierce(node, door, rooms_[door.rooms[side]]);
   }
   if (door.rooms[0] == door.rooms[1]) node.at("between").fail("joins a room with itself");
   doors_.push_back(door);

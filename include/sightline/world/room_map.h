@@ -21,8 +21,8 @@ struct Span {
 struct Wall {
   std::string name;
   geometry::Segment segment;
-  std::vector<Span>
-      spans;  ///< where the wall is really there, in order and apart; doors are left out already
+  /// Where the wall is really there, in order and apart; doors are left out already.
+  std::vector<Span> spans;
 };
 
 /// A named room: a rectangle or a polygon, its walls counter-clockwise.
@@ -50,20 +50,19 @@ struct Door {
 /// ```yaml
 /// rooms:
 ///   office:
-///     size: [5.0, 3.0]              # m; a rectangle, centred on its pose
-///     pose: [12.0, 4.0, 0.1]        # m, m, rad: of the room in the map; default 0 0 0
-///     walls:                        # optional; a wall that is not named is there over its whole
-///     length
-///       north: {spans: [[0.0, 2.0], [2.5, 5.0]]}   # m from the wall's start, counter-clockwise
-///       round the room east: {open: true}          # no wall at all
+///     size: [5.0, 3.0]                 # m; a rectangle, centred on its pose
+///     pose: [12.0, 4.0, 0.1]           # m, m, rad: of the room in the map; default 0 0 0
+///     walls:                           # optional; others are there over their whole length
+///       north: {spans: [[0.0, 2.0], [2.5, 5.0]]}   # m from the wall's start
+///       east: {open: true}             # no wall at all
 ///   tower:
-///     polygon: [[0, 0], [4, 0], [3, 3], [0, 2]]    # m, counter-clockwise, in the room's frame;
-///     walls are 0, 1, 2, …
+///     polygon: [[0, 0], [4, 0], [3, 3], [0, 2]]    # m, in the room's frame
 /// doors:
 ///   - {between: [office, tower], at: [14.5, 4.0], width: 0.9, threshold: true}   # m, in the map
 /// ```
-/// The walls of a rectangle are south, east, north and west: those at −y, +x, +y and −x of the
-/// room's own frame.
+/// Corners and walls run counter-clockwise round the room. The walls of a rectangle are south,
+/// east, north and west: those at −y, +x, +y and −x of the room's own frame. Those of a polygon are
+/// 0, 1, 2, … from the corner of that number. Doors open both walls whatever their spans.
 class RoomMap {
  public:
   RoomMap() = default;
