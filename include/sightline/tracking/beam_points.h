@@ -14,11 +14,11 @@ namespace sightline::tracking {
 /// A valid beam as the tracker sees it, in the base frame at the stamp of the scan.
 struct BeamPoint {
   std::size_t beam = 0;
-  Eigen::Vector2d position;    ///< where it ended [m]
-  Eigen::Vector2d origin;      ///< where the sensor was [m]
-  double range = 0.0;          ///< [m]
-  Eigen::Matrix2d covariance;  ///< of the position [m²]
-  double sweep_share = 0.0;    ///< of the sweep's duration that had passed, [0, 1]
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();    ///< where it ended [m]
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();      ///< where the sensor was [m]
+  double range = 0.0;                                    ///< [m]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of the position [m²]
+  double sweep_share = 0.0;  ///< of the sweep's duration that had passed, [0, 1]
 };
 
 /// The valid beams of a scan, and what is not known of the sensor's motion from the first beam to

@@ -1,0 +1,151 @@
+#include "sightline/tracking/pose_filter.h"
+
+#include <gtest/gtest.h>
+
+#include "monte_carlo.h"
+#include "numeric_jacobian.h"
+
+namespace sightline::tracking {
+namespace {
+
+using geometry::PolarLine;
+using geometry::Pose2;
+using geometry::UncertainPose2;
+using Motion = Eigen::Matrix<double, 2, 3>;
+
+const UncertainPose2 kStart{{1.0, 2.0, 0.7}, Eigen::Vector3d(0.01, 0.02, 0.001).asDiagonal()};
+
+PolarLine lineOf(double rho, double phi, double rho_sigma = 0.0, double phi_sigma = 0.0) {
+  PolarLine line{rho, phi, Eigen::Matrix2d::Zero()};
+  line.covariance.diagonal() << rho_sigma * rho_sigma, phi_sigma * phi_sigma;
+  return line;
+}
+
+TEST(PoseFilter, PredictionFollowsTheStepThroughTheScale) {
+  TrackerConfig config;
+  config.odometry.scale_mean = 1.1;
+  PoseFilter filter(config, kStart);
+  filter.predict({1.0, 0.0, 0.2});
+  const Pose2 expected = kStart.mean * Pose2(1.1, 0.0, 0.2);
+  EXPECT_LT((filter.pose().mean.coordinates() - expected.coordinates()).norm(), 1e-12);
+}
+
+TEST(PoseFilter, PredictedCovarianceIsThatOfManyRobots) {
+  TrackerConfig config;
+  config.odometry.heading_sigma_per_metre = 0.03;
+  const Pose2 step(0.8, 0.1, 0.3);
+  PoseFilter filter(config, kStart);
+  filter.predict(step);
+
+  test::Gauss gauss(7);
+  test::Moments<4> moments;
+  for (int i = 0; i < 40000; ++i) {
+    const Pose2 start(kStart.mean.coordinates() + gauss(kStart.covariance));
+    const double scale = config.odometry.scale_mean + gauss(config.odometry.scale_sigma);
+    const Pose2 moved = motion::expectedStep(config.odometry, step, scale);
+    const Eigen::Matrix3d noise = motion::stepCovariance(config.odometry, moved);
+    const Pose2 end = start * Pose2(moved.coordinates() + gauss(noise));
+    Eigen::Vector4d state;
+    state << end.coordinates(), scale;
+    moments.add(state);
+  }
+  EXPECT_LT(test::relativeError<4>(moments.covariance(), filter.covariance()), 0.03);
+}
+
+TEST(PoseFilter, InnovationJacobianIsTheDerivativeOfThePrediction) {
+  const TrackerConfig config;
+  for (const double phi : {-2.5, -0.4, 0.9, 3.0}) {
+    const PolarLine wall = lineOf(3.0, phi);
+    const PolarLine measured = geometry::transform(kStart.mean.inverse(), wall);
+    const auto value = [&](const Eigen::Vector3d& coordinates) -> Eigen::Vector2d {
+      // The innovation is measured less predicted.
+      return -PoseFilter(config, {Pose2(coordinates), kStart.covariance})
+                  .innovation(measured, wall, Motion::Zero())
+                  .value;
+    };
+    const auto numeric =
+        test::numericJacobian<2, 3>(value, Eigen::Vector3d(kStart.mean.coordinates()));
+    const auto analytic =
+        PoseFilter(config, kStart).innovation(measured, wall, Motion::Zero()).jacobian;
+    EXPECT_LT((analytic.leftCols<3>() - numeric).norm(), 1e-6) << phi;
+    EXPECT_TRUE(analytic.col(3).isZero()) << "a line says nothing of the scale directly";
+  }
+}
+
+TEST(PoseFilter, LinesCorrectThePoseConsistently) {
+  // Two walls, 2000 robots: the mean NEES of a pose is its number of coordinates.
+  const TrackerConfig config;
+  const PolarLine walls[] = {lineOf(4.0, 0.1), lineOf(3.0, 1.8)};
+  test::Gauss gauss(3);
+  double sum = 0.0;
+  constexpr int kRobots = 2000;
+  for (int i = 0; i < kRobots; ++i) {
+    const Pose2 truth(kStart.mean.coordinates() + gauss(kStart.covariance));
+    PoseFilter filter(config, kStart);
+    for (const PolarLine& wall : walls) {
+      PolarLine measured = geometry::transform(truth.inverse(), wall);
+      measured.rho += gauss(0.02);
+      measured.phi += gauss(0.01);
+      measured.covariance = lineOf(0, 0, 0.02, 0.01).covariance;
+      filter.update(filter.innovation(measured, wall, Motion::Zero()));
+    }
+    const Eigen::Vector3d error = filter.pose().mean.coordinates() - truth.coordinates();
+    sum += test::normalisedSquare<3>(error, filter.pose().covariance);
+  }
+  EXPECT_NEAR(sum / kRobots, 3.0, 0.25);
+}
+
+TEST(PoseFilter, LearnsTheScaleFromTheWayBetweenTwoWalls) {
+  TrackerConfig config;
+  config.odometry.scale_sigma = 0.05;
+  const double true_scale = 1.03;
+  const PolarLine wall = lineOf(30.0, 0.0);
+  PoseFilter filter(config, {{0.0, 0.0, 0.0}, Eigen::Matrix3d::Identity() * 1e-4});
+  Pose2 truth;
+  for (int i = 0; i < 40; ++i) {
+    filter.predict({0.5, 0.0, 0.0});
+    truth = truth * Pose2(0.5 * true_scale, 0.0, 0.0);
+    PolarLine measured = geometry::transform(truth.inverse(), wall);
+    measured.covariance = lineOf(0, 0, 0.005, 0.002).covariance;
+    filter.update(filter.innovation(measured, wall, Motion::Zero()));
+  }
+  EXPECT_NEAR(filter.scale(), true_scale, 3.0 * filter.scaleSigma());
+  EXPECT_LT(filter.scaleSigma(), 0.01);
+}
+
+TEST(PoseFilter, SharedMotionOfASweepIsNotAveragedAway) {
+  // A hundred walls that all suffer the same unknown motion do not know the pose better than that
+  // motion allows.
+  const TrackerConfig config;
+  const Eigen::Matrix3d motion = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
+  PoseFilter filter(config, kStart);
+  filter.beginSweep(motion);
+  const PolarLine wall = lineOf(4.0, 0.0, 0.01, 0.005);
+  Motion follows;
+  follows << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+  for (int i = 0; i < 100; ++i) {
+    PolarLine measured = geometry::transform(filter.pose().mean.inverse(), wall);
+    measured.covariance = wall.covariance;
+    filter.update(filter.innovation(measured, wall, follows));
+  }
+  const Eigen::Vector2d across = wall.normal();
+  const double variance = across.dot(filter.pose().covariance.topLeftCorner<2, 2>() * across);
+  EXPECT_GT(variance, 0.5e-4);
+}
+
+TEST(PoseFilter, PlainMethodKeepsTheFloorAndTheScale) {
+  TrackerConfig config;
+  config.method = Method::kPlain;
+  PoseFilter filter(config, {kStart.mean, Eigen::Matrix3d::Identity() * 1e-12});
+  filter.applyFloor();
+  const Eigen::Vector3d sigma = filter.pose().covariance.diagonal().cwiseSqrt();
+  EXPECT_DOUBLE_EQ(sigma[0], config.floor_position_sigma);
+  EXPECT_DOUBLE_EQ(sigma[1], config.floor_position_sigma);
+  EXPECT_DOUBLE_EQ(sigma[2], config.floor_heading_sigma);
+  filter.predict({1.0, 0.0, 0.1});
+  EXPECT_DOUBLE_EQ(filter.scale(), config.odometry.scale_mean);
+  EXPECT_DOUBLE_EQ(filter.scaleSigma(), 0.0);
+}
+
+}  // namespace
+}  // namespace sightline::tracking

@@ -1,0 +1,135 @@
+#include "sightline/tracking/wall_finder.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "numeric_jacobian.h"
+#include "sightline/motion/sweep.h"
+#include "simulated_room.h"
+
+namespace sightline::tracking {
+namespace {
+
+using geometry::Pose2;
+
+const char* const kRoom = "rooms: {hall: {size: [6.0, 4.0]}}";
+const std::vector<WallIndex> kWalls{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
+
+TrackerConfig exactMap() {
+  TrackerConfig config;
+  config.wall.position_sigma = 0.0;
+  config.wall.direction_sigma = 0.0;
+  return config;
+}
+
+PoseFilter filterAt(const TrackerConfig& config, const Pose2& pose) {
+  return {config, {pose, Eigen::Vector3d(0.01, 0.01, 0.003).asDiagonal()}};
+}
+
+TEST(WallFinder, FindsTheWallsFromAVaguePose) {
+  const TrackerConfig config = exactMap();
+  test::SimulatedRooms rooms(kRoom);
+  const Pose2 truth(0.4, -0.3, 0.6);
+  const Sweep sweep = readSweep(rooms.look(truth, 1), {}, config.odometry);
+  const auto walls =
+      WallFinder(config).find(filterAt(config, {0.5, -0.2, 0.65}), rooms.map, kWalls, sweep);
+  int found = 0;
+  for (const WallObservation& wall : walls) {
+    if (!wall.accepted) continue;
+    ++found;
+    const auto expected =
+        geometry::transform(truth.inverse(), rooms.map.rooms()[0].walls[wall.wall].segment.line());
+    const Eigen::Vector2d error = geometry::difference(wall.fit, expected);
+    EXPECT_LT(std::abs(error[0]), 5.0 * std::sqrt(wall.fit.covariance(0, 0)));
+    EXPECT_LT(std::abs(error[1]), 5.0 * std::sqrt(wall.fit.covariance(1, 1)));
+  }
+  EXPECT_GE(found, 3);
+}
+
+TEST(WallFinder, CovarianceOfItsFitsHolds) {
+  const TrackerConfig config = exactMap();
+  test::SimulatedRooms rooms(kRoom, 5);
+  const Pose2 truth(0.4, -0.3, 0.6);
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Sweep sweep = readSweep(rooms.look(truth, i + 1), {}, config.odometry);
+    for (const auto& wall :
+         WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, sweep)) {
+      if (!wall.accepted) continue;
+      const auto expected = geometry::transform(
+          truth.inverse(), rooms.map.rooms()[0].walls[wall.wall].segment.line());
+      sum +=
+          test::normalisedSquare<2>(geometry::difference(wall.fit, expected), wall.fit.covariance);
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 1000);
+  // Where the residuals exceed the noise they widen the covariance, never the other way: a little
+  // below two.
+  EXPECT_GT(sum / count, 1.7);
+  EXPECT_LT(sum / count, 2.1);
+}
+
+TEST(WallFinder, ABeamBelongsToOneWall) {
+  const TrackerConfig config = exactMap();
+  test::SimulatedRooms rooms(kRoom);
+  const Pose2 truth(2.5, 1.5, 0.8);
+  const Sweep sweep = readSweep(rooms.look(truth, 1), {}, config.odometry);
+  std::vector<int> uses(sweep.points.size(), 0);
+  for (const auto& wall :
+       WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, sweep)) {
+    for (const std::size_t beam : wall.accepted_beams) ++uses[beam];
+  }
+  EXPECT_LE(*std::max_element(uses.begin(), uses.end()), 1);
+  EXPECT_GT(std::accumulate(uses.begin(), uses.end(), 0), 300);
+}
+
+TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
+  const TrackerConfig config = exactMap();
+  simulation::ScannerProfile profile = test::SimulatedRooms::profile();
+  profile.rate = 5.0;
+  profile.revolution = 0.1;
+  profile.noise.sigma = 1e-4;
+  const test::SimulatedRooms rooms(kRoom);
+  const Pose2 truth(0.4, -0.3, 0.6);
+  const scan::Scan still =
+      simulation::Scanner(profile, {}, 1).sweep(rooms.world, 1, [&](std::int64_t) {
+        return truth;
+      });
+  const auto fitWith = [&](const Eigen::Vector3d& motion) {
+    scan::Scan scan = still;
+    scan.sensor_motion = motion::sweepMotion(*scan.geometry, Pose2(motion), {});
+    return WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls,
+                                   readSweep(scan, {}, config.odometry));
+  };
+  const Eigen::Vector3d motion(0.01, 0.005, 0.004);
+  const auto reference = fitWith(motion);
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    if (!reference[i].accepted) continue;
+    const auto line = [&](const Eigen::Vector3d& m) -> Eigen::Vector2d {
+      const auto fit = fitWith(m)[i].fit;
+      return {fit.rho, fit.phi};
+    };
+    const auto numeric = test::numericJacobian<2, 3>(
+        line, motion,
+        [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) -> Eigen::Vector2d { return a - b; },
+        1e-5);
+    EXPECT_LT((reference[i].motion_jacobian - numeric).norm(), 0.05 * numeric.norm())
+        << "wall " << i;
+  }
+}
+
+TEST(WallFinder, NoBeamsNoWalls) {
+  const TrackerConfig config = exactMap();
+  const test::SimulatedRooms rooms(kRoom);
+  for (const auto& wall : WallFinder(config).find(filterAt(config, {}), rooms.map, kWalls, {})) {
+    EXPECT_FALSE(wall.accepted);
+    EXPECT_EQ(wall.beams_in_gate, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace sightline::tracking
