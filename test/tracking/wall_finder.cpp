@@ -92,7 +92,6 @@ TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
   simulation::ScannerProfile profile = test::SimulatedRooms::profile();
   profile.rate = 5.0;
   profile.revolution = 0.1;
-  profile.noise.sigma = 1e-4;
   const test::SimulatedRooms rooms(kRoom);
   const Pose2 truth(0.4, -0.3, 0.6);
   const scan::Scan still =
@@ -105,7 +104,7 @@ TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
     return WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls,
                                    readSweep(scan, {}, config.odometry));
   };
-  const Eigen::Vector3d motion(0.01, 0.005, 0.004);
+  const Eigen::Vector3d motion(0.002, 0.001, 0.001);
   const auto reference = fitWith(motion);
   for (std::size_t i = 0; i < reference.size(); ++i) {
     if (!reference[i].accepted) continue;
