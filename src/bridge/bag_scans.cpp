@@ -33,9 +33,20 @@ std::set<std::string> laserTopics(rosbag::View& view) {
 }  // namespace
 
 BagScans::BagScans(const std::string& path, const pipeline::OfflineConfig& config, bool use_wheels)
-    : bag_(path, rosbag::bagmode::Read), frames_(config.frames), use_wheels_(use_wheels) {
+    : path_(path), frames_(config.frames), use_wheels_(use_wheels) {
   for (const std::string& topic : config.scans) readers_.emplace(fromRoot(topic), config.noise);
+  withPath([&] { bag_.open(path, rosbag::bagmode::Read); });
   checkTopics();
+}
+
+// rosbag does not say which file is at fault.
+template <class Call>
+void BagScans::withPath(const Call& call) const {
+  try {
+    call();
+  } catch (const ros::Exception& fault) {
+    throw config::Error(path_, 0, "", fault.what());
+  }
 }
 
 void BagScans::checkTopics() {
@@ -44,13 +55,17 @@ void BagScans::checkTopics() {
   for (const auto& [topic, reader] : readers_) {
     if (known.count(topic) > 0) continue;
     throw config::Error(
-        bag_.getFileName(), 0, "",
+        path_, 0, "",
         fmt::format("no sensor_msgs/LaserScan on {}; there are: {}", topic,
                     known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
   }
 }
 
 void BagScans::read(const Visitor& visitor) {
+  withPath([&] { readAll(visitor); });
+}
+
+void BagScans::readAll(const Visitor& visitor) {
   std::vector<std::string> topics{"/tf", "/tf_static"};
   for (const auto& [topic, reader] : readers_) topics.push_back(topic);
   rosbag::View view(bag_, rosbag::TopicQuery(topics));

@@ -177,9 +177,9 @@ TEST_F(BagScansTest, NameTheTopicsThatThereAre) {
 }
 
 TEST_F(BagScansTest, RefuseWhatIsNoBag) {
-  const std::string path = folder_.write("b.bag", "not a bag");
-  EXPECT_THROW(BagScans(path, {}, true), rosbag::BagException);
-  EXPECT_THROW(BagScans(folder_.path("none.bag"), {}, true), rosbag::BagException);
+  for (const std::string& path : {folder_.write("b.bag", "not a bag"), folder_.path("none.bag")}) {
+    EXPECT_EQ(errorOf([&] { BagScans(path, {}, true); }).source(), path);
+  }
 }
 
 }  // namespace

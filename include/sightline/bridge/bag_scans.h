@@ -40,10 +40,11 @@ class BagScans {
     std::function<void(double)> progress;
   };
 
-  /// `use_wheels`: whether the odometry is asked at all. Throws rosbag::BagException where the file
-  /// is no whole bag, config::Error where it holds none of a topic's scans.
+  /// `use_wheels`: whether the odometry is asked at all. Throws config::Error where the file is no
+  /// whole bag or holds none of a topic's scans.
   BagScans(const std::string& path, const pipeline::OfflineConfig& config, bool use_wheels);
 
+  /// Throws config::Error where the bag is damaged.
   void read(const Visitor& visitor);
 
   /// Messages on the topics of the scans.
@@ -62,13 +63,17 @@ class BagScans {
     bool was_read = false;
   };
 
+  template <class Call>
+  void withPath(const Call& call) const;
   void checkTopics();
+  void readAll(const Visitor& visitor);
   void take(const rosbag::MessageInstance& instance, const Visitor& visitor);
   void takeScan(const rosbag::MessageInstance& instance, ScanReader& reader);
   void releaseWaiting(const ros::Time& now, bool at_end, const Visitor& visitor);
   bool complete(Waiting& waiting, bool is_late);
   void addMotion(LocatedScan& located);
 
+  std::string path_;
   rosbag::Bag bag_;
   pipeline::Frames frames_;
   bool use_wheels_;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace sightline::test {
+
+/// What a program said, on either channel, and its exit status.
+struct ProgramResult {
+  int status = 0;
+  std::string output;
+};
+
+/// Runs one of the package's own programs. Arguments are parted by blanks.
+inline ProgramResult runProgram(const std::string& name, const std::string& arguments) {
+  const std::string command = SIGHTLINE_PROGRAMS "/" + name + " " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) throw std::runtime_error("cannot run " + command);
+  ProgramResult result;
+  std::array<char, 4096> buffer{};
+  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe)) {
+    result.output += buffer.data();
+  }
+  result.status = WEXITSTATUS(pclose(pipe));
+  return result;
+}
+
+}  // namespace sightline::test
