@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
+#include "rooms/freiburg.h"
 #include "sightline/geometry/angle.h"
 #include "sightline/motion/pose_history.h"
 #include "sightline/pipeline/scan_motion.h"
@@ -229,5 +230,6 @@ int main() {
   benchmark({"clutter50", 0.5, 0.0}, "", trackerConfig());
   benchmark({"clutter70", 0.7, 0.0}, "", trackerConfig());
   benchmark({"turn46", 0.0, geometry::radians(46.0)}, "", trackerConfig());
+  bench::printFreiburg();
   return 0;
 }
