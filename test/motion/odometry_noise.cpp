@@ -108,7 +108,7 @@ TEST(StepCovariance, IsSymmetricAndNeverNegative) {
 
 // The noise as the model tells it, a small piece of the way at a time.
 Pose2 randomWalk(const OdometryNoise& noise, const Vector3d& way, test::Gauss& gauss) {
-  constexpr int kSteps = 200;
+  constexpr int kSteps = 100;
   const double length = way.head<2>().norm() / kSteps;
   const double turn = std::abs(way[2]) / kSteps;
   const double heading_sigma = std::sqrt(std::pow(noise.heading_sigma_per_metre, 2) * length +
@@ -140,7 +140,7 @@ TEST_P(RandomWalk, HasTheCovarianceOfTheStep) {
   const Matrix3d expected = stepCovariance(noise, end);
   test::Gauss gauss(2);
   test::Moments<3> moments;
-  for (int i = 0; i < 4000; ++i) moments.add(errorOf(randomWalk(noise, way, gauss), end));
+  for (int i = 0; i < 2500; ++i) moments.add(errorOf(randomWalk(noise, way, gauss), end));
   EXPECT_LT(test::relativeError(moments.covariance(), expected), 0.1);
 }
 
