@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sightline/lines/beam_residuals.h"
+#include "sightline/lines/chi_square.h"
 
 namespace sightline::lines {
 
@@ -11,6 +12,8 @@ namespace {
 // How far a break may move at once, and what a piece keeps of itself.
 constexpr std::size_t kReach = 24;
 constexpr std::size_t kKeep = 3;
+// A line of its own has a distance, a direction and a break.
+constexpr std::size_t kLineFreedom = 3;
 
 // Squared normalised residuals, bounded by the gate: a stray return costs the same wherever it is.
 struct Costs {
@@ -30,7 +33,10 @@ Costs costsOf(const BeamArray& beams, std::size_t first, const LineEstimate& lin
 }  // namespace
 
 BreakPoints::BreakPoints(const BeamArray& beams, const LineExtractorConfig& config)
-    : beams_(beams), gap_(config), gate_squared_(config.gate * config.gate) {}
+    : beams_(beams),
+      gap_(config),
+      gate_squared_(config.gate * config.gate),
+      fragment_limit_(chiSquareLimit(config.gate, kLineFreedom)) {}
 
 bool BreakPoints::isOn(const LineEstimate& line, std::size_t i) const {
   const BeamResiduals residuals = residualsOf(beams_, i, line);
@@ -76,7 +82,7 @@ void BreakPoints::separate(Piece& before, Piece& after) const {
   const std::size_t low = std::max(before.first + kKeep, before.end - std::min(before.end, kReach));
   const std::size_t high = std::min(after.end - std::min(after.end, kKeep), after.first + kReach);
   if (low >= high || after.first - before.end > kReach) return;
-  const std::size_t best = bestBreak(before, after, low, high);
+  const std::size_t best = bestBreak(before.line, after.line, low, high).at;
   if (best < before.end) before.end = best;
   if (best > after.first) after.first = best;
   trim(before);
@@ -85,24 +91,63 @@ void BreakPoints::separate(Piece& before, Piece& after) const {
   extendBackward(after, best);
 }
 
-std::size_t BreakPoints::bestBreak(const Piece& before, const Piece& after, std::size_t low,
-                                   std::size_t high) const {
-  // Of the difference to a break at `low`.
-  double cost = 0.0;
+BreakPoints::Break BreakPoints::bestBreak(const LineEstimate& before, const LineEstimate& after,
+                                          std::size_t low, std::size_t high) const {
+  double difference = 0.0;  // to a break at `low`
   double least = 0.0;
-  std::size_t best = low;
+  Break best{low, 0.0};
   for (std::size_t first = low; first < high; first += kLanes) {
-    const Costs as_before = costsOf(beams_, first, before.line, gate_squared_);
-    const Costs as_after = costsOf(beams_, first, after.line, gate_squared_);
+    const Costs as_before = costsOf(beams_, first, before, gate_squared_);
+    const Costs as_after = costsOf(beams_, first, after, gate_squared_);
     for (std::size_t i = 0; i < kLanes && first + i < high; ++i) {
-      cost += as_before.value[i] - as_after.value[i];
-      if (cost < least) {
-        least = cost;
-        best = first + i + 1;
+      best.cost += as_after.value[i];
+      difference += as_before.value[i] - as_after.value[i];
+      if (difference < least) {
+        least = difference;
+        best.at = first + i + 1;
       }
     }
   }
+  best.cost += least;
   return best;
+}
+
+double BreakPoints::costOf(const LineEstimate& line, std::size_t first, std::size_t end) const {
+  double cost = 0.0;
+  for (std::size_t i = first; i < end; i += kLanes) {
+    const Costs costs = costsOf(beams_, i, line, gate_squared_);
+    for (std::size_t k = 0; k < kLanes && i + k < end; ++k) cost += costs.value[k];
+  }
+  return cost;
+}
+
+bool BreakPoints::adjoin(const Piece& before, const Piece& after, const LineEstimate& line) const {
+  const std::size_t from = before.end - 1;
+  return gap_.mayBridge(beams_, from, after.first,
+                        positionOn(line, after.first) - positionOn(line, from));
+}
+
+bool BreakPoints::shareOut(const Piece& piece, Piece* before, Piece* after) const {
+  if (before && !adjoin(*before, piece, before->line)) before = nullptr;
+  if (after && !adjoin(piece, *after, after->line)) after = nullptr;
+  if (!before && !after) return false;
+  Break split{before ? piece.end : piece.first, 0.0};
+  if (before && after) {
+    split = bestBreak(before->line, after->line, piece.first, piece.end);
+  } else {
+    split.cost = costOf(before ? before->line : after->line, piece.first, piece.end);
+  }
+  const auto stray = static_cast<double>(piece.end - piece.first - piece.beams);
+  if (split.cost > piece.chi_square + stray * gate_squared_ + fragment_limit_) return false;
+  if (before && split.at > piece.first) {
+    before->end = split.at;
+    trim(*before);
+  }
+  if (after && split.at < piece.end) {
+    after->first = split.at;
+    trim(*after);
+  }
+  return true;
 }
 
 }  // namespace sightline::lines

@@ -13,6 +13,9 @@ using geometry::EndKind;
 // Lines closer to parallel than this make no corner.
 constexpr double kMinCornerSine = 0.1;
 constexpr double kTolerance = 3.0;  // standard deviations
+// A crossing this much less certain (variance) than where the beams say the wall ends proves
+// nothing: that goes for lines one of which is hardly known.
+constexpr double kVaguer = 9.0;
 
 // Of the distance of the line from a point at a position on it.
 double varianceAt(const LineEstimate& line, double position) {
@@ -37,12 +40,12 @@ EndPoint EndPoints::end(const Piece& piece, const Piece* neighbour) const {
 
 EndPoint EndPoints::find(const Piece& piece, const Piece* neighbour, Side side) const {
   const std::size_t last = side == Side::kStart ? piece.first : piece.end - 1;
-  EndPoint point;
-  if (neighbour) {
-    const std::size_t next = side == Side::kStart ? neighbour->end - 1 : neighbour->first;
-    if (corner(piece, *neighbour, last, next, point)) return point;
-  }
-  return edge(piece, last, side);
+  const EndPoint between = edge(piece, last, side);
+  if (!neighbour) return between;
+  const std::size_t next = side == Side::kStart ? neighbour->end - 1 : neighbour->first;
+  EndPoint crossing;
+  const bool meet = corner(piece, *neighbour, last, next, crossing);
+  return meet && crossing.variance < kVaguer * between.variance ? crossing : between;
 }
 
 bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t last,

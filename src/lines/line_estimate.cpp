@@ -3,12 +3,14 @@
 namespace sightline::lines {
 
 void LineEstimate::step(double rho_step, double phi_step) {
-  rho += rho_step;
   // Half-angle form: a rotation whatever the step, without sine and cosine.
   const double half = 0.5 * phi_step;
   const double scale = 1.0 / (1.0 + half * half);
   const double c = (1.0 - half * half) * scale;
   const double s = 2.0 * half * scale;
+  const double middle = -information.rho_phi / information.rho_rho;
+  information = information.shifted(s * rho);
+  rho = c * rho + s * middle + rho_step - phi_step * middle;
   const double x = c * normal_x - s * normal_y;
   normal_y = s * normal_x + c * normal_y;
   normal_x = x;

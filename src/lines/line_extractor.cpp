@@ -31,6 +31,7 @@ const std::vector<geometry::LineSegment>& LineExtractor::extract(const scan::Sca
   segments_.clear();
   findPieces(scan);
   refinePieces();
+  dropFragments();
   placeBreaks();
   refinePieces();
   mergePieces();
@@ -58,7 +59,7 @@ std::size_t LineExtractor::findPiecesIn(std::size_t first, std::size_t end, std:
       ++next;
       continue;
     }
-    const std::size_t stop = filter.follow(started, end);
+    const std::size_t stop = filter.follow(next, started, end);
     pieces_.push_back({next, stop, filter.estimate(), 0, 0.0});
     next = stop;
   }
@@ -71,6 +72,20 @@ void LineExtractor::refinePieces() {
   pieces_.erase(std::remove_if(pieces_.begin(), pieces_.end(), undetermined), pieces_.end());
 }
 
+void LineExtractor::dropFragments() {
+  const BreakPoints breaks(beams_, config_);
+  std::size_t kept = 0;  // pieces_[0, kept) are settled
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece piece = pieces_[i];
+    Piece* before = kept > 0 ? &pieces_[kept - 1] : nullptr;
+    Piece* after = i + 1 < pieces_.size() ? &pieces_[i + 1] : nullptr;
+    if (before && before->beams < piece.beams) before = nullptr;
+    if (after && after->beams < piece.beams) after = nullptr;
+    if (!breaks.shareOut(piece, before, after)) pieces_[kept++] = piece;
+  }
+  pieces_.resize(kept);
+}
+
 void LineExtractor::placeBreaks() {
   const BreakPoints breaks(beams_, config_);
   for (Piece& piece : pieces_) breaks.trim(piece);
@@ -81,11 +96,14 @@ void LineExtractor::placeBreaks() {
   }
   if (pieces_.size() < 2) return;
   if (beams_.size > beams_.round) {
-    Piece next = shifted(pieces_.front(), beams_.round);
-    breaks.extendForward(pieces_.back(), next.first);
-    breaks.extendBackward(next, pieces_.back().end);
-    breaks.separate(pieces_.back(), next);
-    pieces_.front().first = next.first - beams_.round;
+    // The first piece follows on the last one, a round on.
+    std::rotate(pieces_.begin(), pieces_.begin() + 1, pieces_.end());
+    Piece& last = pieces_[pieces_.size() - 2];
+    Piece& first = pieces_.back();
+    first = shifted(first, beams_.round);
+    breaks.extendForward(last, first.first);
+    breaks.extendBackward(first, last.end);
+    breaks.separate(last, first);
   }
 }
 

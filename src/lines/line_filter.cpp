@@ -12,6 +12,10 @@ namespace {
 
 constexpr std::size_t kFewestToStart = 5;
 constexpr std::size_t kMostToStart = 64;
+// Standard deviation of the direction up to which an update is linear [rad].
+constexpr double kGrownUp = 0.02;
+// Times the gate, squared, in which a young line keeps its observations.
+constexpr double kLenience = 4.0;
 
 }  // namespace
 
@@ -33,10 +37,10 @@ struct LineFilter::Moments {
     double across_across;
     double along_across;
 
-    // Of the direction of the line `along = a across + b` by weighted least squares.
-    double phiVariance() const {
-      const double squared = across_across * across_across + along_across * along_across;
-      return across_across * across_across * across_across / (squared * squared);
+    // Of the line `along = a across + b` by weighted least squares: variance of its direction over
+    // the squared cosine of its incidence. That is the relative error of the predicted noise.
+    double relativeVariance() const {
+      return across_across / (across_across * across_across + along_across * along_across);
     }
   };
   Turned turned(double axis_x, double axis_y) const {
@@ -63,7 +67,7 @@ std::size_t LineFilter::start(std::size_t first, std::size_t end) {
                 beams_.y[i] - beams_.y[first]);
     const std::size_t count = i + 1 - first;
     if (count < kFewestToStart) continue;
-    if (moments.turned(axis_x, axis_y).phiVariance() > wanted) continue;
+    if (moments.turned(axis_x, axis_y).relativeVariance() > wanted) continue;
     return fitStart(moments, first, count) ? i + 1 : first;
   }
   return first;
@@ -94,7 +98,7 @@ bool LineFilter::fitStart(const Moments& moments, std::size_t first, std::size_t
   return true;
 }
 
-std::size_t LineFilter::follow(std::size_t next, std::size_t end) {
+std::size_t LineFilter::follow(std::size_t first, std::size_t next, std::size_t end) {
   std::size_t last = next - 1;
   last_position_ = residualsOf(beams_, last, estimate_).position[0];
   while (next < end) {
@@ -104,6 +108,7 @@ std::size_t LineFilter::follow(std::size_t next, std::size_t end) {
     if (count > 0) {
       update(residuals, count);
       next += count;
+      if (isYoung()) relinearise(first, next);
       last = next - 1;
       last_position_ = residuals.position[count - 1];
       continue;
@@ -162,6 +167,19 @@ void LineFilter::update(const BeamResiduals& residuals, std::size_t count) {
     equations.gradient_phi += wa * residuals.distance[i];
   }
   stepTo(equations, estimate_);
+}
+
+bool LineFilter::isYoung() const {
+  const Information& info = estimate_.information;
+  return info.rho_rho > kGrownUp * kGrownUp * info.determinant();
+}
+
+// Far from the estimate the linearisation does not hold: as long as the direction is so uncertain,
+// the update is iterated over all observations so far.
+void LineFilter::relinearise(std::size_t first, std::size_t end) {
+  const NormalEquations equations =
+      linearise(beams_, first, end, estimate_, kLenience * gate_squared_);
+  if (equations.information.isDetermined()) stepTo(equations, estimate_);
 }
 
 // Two validated returns in a row, not too far on, take the line up again. Returns how many to skip;

@@ -14,12 +14,6 @@ double twoDofLimit(double sigmas) {
   return -2.0 * std::log(std::erfc(sigmas / std::sqrt(2.0)));
 }
 
-// Information about a line in a frame whose origin lies further along it.
-Information shifted(const Information& info, double position) {
-  return {info.rho_rho, info.rho_phi + position * info.rho_rho,
-          info.phi_phi + position * (2.0 * info.rho_phi + position * info.rho_rho)};
-}
-
 NormalEquations sum(const NormalEquations& a, const NormalEquations& b) {
   NormalEquations result = a;
   result.information.rho_rho += b.information.rho_rho;
@@ -37,9 +31,9 @@ double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after,
   const double origin_y = before.rho * before.normal_y + position * before.alongY();
   const double rho = after.rho - after.normal_x * origin_x - after.normal_y * origin_y;
   const double phi = before.normal_x * after.normal_y - before.normal_y * after.normal_x;
-  const Information a = shifted(before.information, position);
+  const Information a = before.information.shifted(position);
   const Information b =
-      shifted(after.information, after.alongX() * origin_x + after.alongY() * origin_y);
+      after.information.shifted(after.alongX() * origin_x + after.alongY() * origin_y);
   const double da = 1.0 / a.determinant();
   const double db = 1.0 / b.determinant();
   const double rho_rho = da * a.phi_phi + db * b.phi_phi;

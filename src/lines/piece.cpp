@@ -69,8 +69,8 @@ double stepTo(const NormalEquations& equations, LineEstimate& line) {
       scale * (info.phi_phi * equations.gradient_rho - info.rho_phi * equations.gradient_phi);
   const double phi_step =
       scale * (info.rho_rho * equations.gradient_phi - info.rho_phi * equations.gradient_rho);
-  line.step(rho_step, phi_step);
   line.information = info;
+  line.step(rho_step, phi_step);
   return -(rho_step * equations.gradient_rho + phi_step * equations.gradient_phi);
 }
 

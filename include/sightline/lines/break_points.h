@@ -21,16 +21,27 @@ class BreakPoints {
   void trim(Piece& piece) const;
   /// Puts the break between two pieces where their lines together explain the returns best.
   void separate(Piece& before, Piece& after) const;
+  /// Shares the returns of a piece out between its neighbours, either of which may be null, where
+  /// these explain them no worse than chance allows: such a piece is a fragment. False where they
+  /// do not.
+  bool shareOut(const Piece& piece, Piece* before, Piece* after) const;
 
  private:
-  std::size_t bestBreak(const Piece& before, const Piece& after, std::size_t low,
-                        std::size_t high) const;
+  struct Break {
+    std::size_t at = 0;
+    double cost = 0.0;
+  };
+  Break bestBreak(const LineEstimate& before, const LineEstimate& after, std::size_t low,
+                  std::size_t high) const;
+  double costOf(const LineEstimate& line, std::size_t first, std::size_t end) const;
+  bool adjoin(const Piece& before, const Piece& after, const LineEstimate& line) const;
   bool isOn(const LineEstimate& line, std::size_t i) const;
   double positionOn(const LineEstimate& line, std::size_t i) const;
 
   const BeamArray& beams_;
   Gap gap_;
   double gate_squared_;
+  double fragment_limit_;
 };
 
 }  // namespace sightline::lines

@@ -12,6 +12,11 @@ struct Information {
   double rho_phi = 0.0;
   double phi_phi = 0.0;
 
+  /// The same about a line seen from an origin that lies `distance` further along it.
+  Information shifted(double distance) const {
+    return {rho_rho, rho_phi + distance * rho_rho,
+            phi_phi + distance * (2.0 * rho_phi + distance * rho_rho)};
+  }
   double determinant() const { return rho_rho * phi_phi - rho_phi * rho_phi; }
   /// Whether the inverse exists to the accuracy of the numbers.
   bool isDetermined() const {
@@ -28,7 +33,11 @@ struct LineEstimate {
   double rho = 0.0;
   Information information;
 
-  /// Moves the line by a step in (ρ, φ). The turn is exact to third order in `phi_step`.
+  /// Moves the line by a step in (ρ, φ), which it takes as a turn about the middle of what the
+  /// information was gathered from, and a shift: for a line far off, turning about the origin would
+  /// carry it away from its own points. The information is taken along: the positions of those
+  /// points along the line change by −ρ φ_step. Were it left as it is, the line would be believed
+  /// better known with each step than it is, and break up (pears section 4.7).
   void step(double rho_step, double phi_step);
   /// Direction of the line, 90° counter-clockwise from the normal: `along · p` is a position on it.
   double alongX() const { return -normal_y; }

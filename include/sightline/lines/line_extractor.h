@@ -30,6 +30,7 @@ class LineExtractor {
   void findPieces(const scan::Scan& scan);
   std::size_t findPiecesIn(std::size_t first, std::size_t end, std::size_t most);
   void refinePieces();
+  void dropFragments();
   void mergePieces();
   void placeBreaks();
   bool isWall(const Piece& piece) const;

@@ -27,8 +27,9 @@ class LineFilter {
   /// Returns one past the last of them, or `first` where no line explains them.
   std::size_t start(std::size_t first, std::size_t end);
 
-  /// Filters on from the return `next`. Returns one past the last validated one.
-  std::size_t follow(std::size_t next, std::size_t end);
+  /// Filters on from the return `next` with the line that started at `first`. Returns one past the
+  /// last validated one.
+  std::size_t follow(std::size_t first, std::size_t next, std::size_t end);
 
   const LineEstimate& estimate() const { return estimate_; }
 
@@ -39,6 +40,8 @@ class LineFilter {
                              std::size_t lanes) const;
   std::array<bool, kLanes> validate(const BeamResiduals& residuals) const;
   void update(const BeamResiduals& residuals, std::size_t count);
+  bool isYoung() const;
+  void relinearise(std::size_t first, std::size_t end);
   std::size_t lookAhead(const BeamResiduals& residuals, std::size_t last, std::size_t next,
                         std::size_t lanes) const;
 
