@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <fmt/format.h>
+#include <dynamic_reconfigure/server.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
@@ -23,6 +23,7 @@
 #include "sightline/bridge/room_messages.h"
 #include "sightline/bridge/scan_conversion.h"
 #include "sightline/bridge/time.h"
+#include "sightline/bridge/tracker_settings.h"
 #include "sightline/pipeline/scan_motion.h"
 #include "sightline/tracking/room_tracker.h"
 
@@ -69,7 +70,7 @@ class RoomTrackerNode {
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
-  RoomTrackerConfig config_;
+  RoomTrackerNodeConfig config_;
   tracking::RoomTracker tracker_;
   diagnostic_updater::Updater updater_;
   tf2_ros::Buffer transforms_;
@@ -81,6 +82,7 @@ class RoomTrackerNode {
   TrackerStatus last_status_;
   double odometry_scale_ = 1.0;
 
+  dynamic_reconfigure::Server<RoomTrackerConfig> reconfigure_;
   ros::Publisher pose_publisher_;
   ros::Publisher status_publisher_;
   ros::Publisher marker_publisher_;
@@ -92,8 +94,8 @@ class RoomTrackerNode {
   ros::WallTimer diagnostics_timer_;
 };
 
-RoomTrackerConfig readConfig(const ros::NodeHandle& private_node) {
-  auto config = bridge::readParameters<RoomTrackerConfig>(private_node);
+RoomTrackerNodeConfig readConfig(const ros::NodeHandle& private_node) {
+  auto config = bridge::readParameters<RoomTrackerNodeConfig>(private_node);
   const std::string source = private_node.getNamespace();
   if (config.rooms.empty()) throw config::Error(source, 0, "rooms", "has to name a rooms file");
   if (!config.initial_pose.empty() && config.initial_pose.size() != 3) {
@@ -109,7 +111,8 @@ RoomTrackerNode::RoomTrackerNode(ros::NodeHandle node, ros::NodeHandle private_n
     : node_(node),
       config_(readConfig(private_node)),
       tracker_(config_.tracker, world::RoomMap::readFile(config_.rooms)),
-      updater_(node, private_node) {
+      updater_(node, private_node),
+      reconfigure_(ros::NodeHandle(private_node, "tracker")) {
   updater_.setHardwareID("none");
   updater_.add("tracking", this, &RoomTrackerNode::report);
   pose_publisher_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 10);
@@ -125,6 +128,11 @@ RoomTrackerNode::RoomTrackerNode(ros::NodeHandle node, ros::NodeHandle private_n
   set_room_server_ = private_node.advertiseService("set_room", &RoomTrackerNode::onSetRoom, this);
   inflate_server_ =
       private_node.advertiseService("inflate_uncertainty", &RoomTrackerNode::onInflate, this);
+  reconfigure_.updateConfig(bridge::toReconfigure(config_.tracker));
+  reconfigure_.setCallback([this](RoomTrackerConfig& settings, std::uint32_t) {
+    bridge::applyReconfigure(settings, config_.tracker);
+    tracker_.configure(config_.tracker);
+  });
   std::istringstream topics(config_.scans);
   for (std::string topic; topics >> topic;) addScanner(topic);
   waiting_timer_ = node_.createWallTimer(ros::WallDuration(0.005),

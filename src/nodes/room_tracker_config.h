@@ -10,7 +10,7 @@
 namespace sightline::nodes {
 
 /// Parameters of the node room_tracker.
-struct RoomTrackerConfig {
+struct RoomTrackerNodeConfig {
   std::string rooms;           ///< path of the rooms file
   std::string scans = "scan";  ///< topics, apart by spaces
   std::string map_frame = "map";

@@ -44,6 +44,7 @@ class RoomTracker::Impl {
   }
 
   const world::RoomMap& map() const { return map_; }
+  void configure(const TrackerConfig& config);
   void setPose(const geometry::UncertainPose2& T_map_base);
   void inflate(double position_sigma, double heading_sigma);
   bool setRoom(const std::string& name);
@@ -72,6 +73,13 @@ class RoomTracker::Impl {
   std::int64_t stamp_ = 0;            // of the last scan
   int misfits_ = 0;                   // scans in a row that did not fit the room
 };
+
+void RoomTracker::Impl::configure(const TrackerConfig& config) {
+  config::validate(config);
+  config_ = config;
+  finder_ = WallFinder(config);
+  if (filter_) filter_->configure(config);
+}
 
 void RoomTracker::Impl::setPose(const geometry::UncertainPose2& T_map_base) {
   filter_.emplace(config_, T_map_base);
@@ -240,6 +248,8 @@ RoomTracker::RoomTracker(const TrackerConfig& config, world::RoomMap map)
 RoomTracker::~RoomTracker() = default;
 RoomTracker::RoomTracker(RoomTracker&&) noexcept = default;
 RoomTracker& RoomTracker::operator=(RoomTracker&&) noexcept = default;
+
+void RoomTracker::configure(const TrackerConfig& config) { impl_->configure(config); }
 
 void RoomTracker::setPose(const geometry::UncertainPose2& T_map_base) {
   impl_->setPose(T_map_base);

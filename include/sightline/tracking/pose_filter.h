@@ -17,6 +17,8 @@ class PoseFilter {
  public:
   PoseFilter(const TrackerConfig& config, const geometry::UncertainPose2& start);
 
+  /// Changes settings and keeps the state.
+  void configure(const TrackerConfig& config) { config_ = config; }
   /// Moves by a step of odometry, given in the body frame at its start.
   void predict(const geometry::Pose2& step);
   /// Begins a scan: `motion_covariance` is of the motion over its sweep, in coordinates of the base

@@ -49,6 +49,8 @@ class RoomTracker {
   RoomTracker(RoomTracker&&) noexcept;
   RoomTracker& operator=(RoomTracker&&) noexcept;
 
+  /// Changes settings and keeps the pose. Throws config::Error if they are out of range.
+  void configure(const TrackerConfig& config);
   /// Starts, or starts again, at a pose. The room is the one the position lies in, or the nearest.
   void setPose(const geometry::UncertainPose2& T_map_base);
   /// Adds to the uncertainty by hand [m, rad].
