@@ -1,11 +1,244 @@
+#include <cmath>
 #include <memory>
+#include <set>
+#include <string>
+#include <vector>
 
-#include <ros/node_handle.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "nodes/sim_sensor_config.h"
+#include "sightline/bridge/input_monitor.h"
+#include "sightline/bridge/odometry_conversion.h"
+#include "sightline/bridge/parameters.h"
+#include "sightline/bridge/pose_conversion.h"
+#include "sightline/bridge/run_clock.h"
+#include "sightline/bridge/scan_conversion.h"
+#include "sightline/bridge/time.h"
+#include "sightline/simulation/simulation.h"
 
 namespace sightline::nodes {
 
-std::shared_ptr<void> makeSimSensor(ros::NodeHandle, ros::NodeHandle) {
-  return nullptr;
+namespace {
+
+using simulation::Simulation;
+
+class SimSensorNode {
+ public:
+  SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node);
+
+ private:
+  struct Scanner {
+    SimScannerConfig config;
+    ros::Publisher publisher;
+  };
+
+  Simulation build() const;
+  void addScanners(const config::Node& parameters);
+  void addScanner(const SimScannerConfig& config);
+  void broadcastMounting(const SimScannerConfig& config);
+  void startDriving();
+  void onCommand(const geometry_msgs::Twist& command);
+  void onTimer();
+  void step();
+  void publish(simulation::FinishedSweep& sweep);
+  void publishState();
+  bridge::UncertainTwist2 odometryTwist() const;
+  void publishOdometry();
+  void publishGroundTruth();
+  void end();
+
+  ros::NodeHandle node_;
+  SimSensorConfig config_;
+  Simulation simulation_;
+  bridge::RunClock clock_;
+  diagnostic_updater::Updater updater_;
+  std::unique_ptr<bridge::InputMonitor> command_monitor_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  tf2_ros::StaticTransformBroadcaster static_broadcaster_;
+  std::vector<Scanner> scanners_;
+  std::int64_t odometry_messages_ = 0;
+  motion::StampedPose2 last_odometry_;  // stamp in time of the run
+
+  ros::Publisher odometry_publisher_;
+  ros::Publisher truth_publisher_;
+  ros::Subscriber command_subscriber_;
+  ros::WallTimer timer_;
+  ros::WallTimer diagnostics_timer_;
+  ros::WallTimer end_timer_;
+};
+
+SimSensorConfig readConfig(const ros::NodeHandle& private_node) {
+  const auto config = bridge::readParameters<SimSensorConfig>(private_node);
+  const auto fail = [&](const char* key, const char* reason) {
+    throw config::Error(private_node.getNamespace(), 0, key, reason);
+  };
+  if (config.world.empty()) fail("world", "has to name a world file");
+  if (config.start_pose.size() != 3) fail("start_pose", "expected x, y and yaw");
+  if (config.clock && !ros::Time::isSimTime()) fail("clock", "needs the parameter /use_sim_time");
+  return config;
+}
+
+SimSensorNode::SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : node_(node),
+      config_(readConfig(private_node)),
+      simulation_(build()),
+      clock_(config_.clock ? bridge::RunClock(node, config_.speed_factor) : bridge::RunClock()),
+      updater_(node, private_node) {
+  updater_.setHardwareID("none");
+  addScanners(bridge::parametersBelow(private_node));
+  odometry_publisher_ = node_.advertise<nav_msgs::Odometry>("odom", 50);
+  truth_publisher_ = node_.advertise<nav_msgs::Odometry>("ground_truth", 50);
+  startDriving();
+  timer_ = node_.createWallTimer(ros::WallDuration(1e-9 * Simulation::kStep),
+                                 [this](const ros::WallTimerEvent&) { onTimer(); });
+  diagnostics_timer_ = node_.createWallTimer(
+      ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { updater_.update(); });
+}
+
+Simulation SimSensorNode::build() const {
+  const auto& start = config_.start_pose;
+  return {world::World::readFile(config_.world), config_.robot,
+          geometry::Pose2(start[0], start[1], start[2]), static_cast<std::uint64_t>(config_.seed)};
+}
+
+void SimSensorNode::addScanners(const config::Node& parameters) {
+  if (!parameters.has("scanners")) return addScanner({});
+  std::set<std::string> topics;
+  for (const auto& [name, parameter] : parameters.at("scanners").entries()) {
+    SimScannerConfig config;
+    config::read(parameter, config);
+    if (!topics.insert(config.topic).second) {
+      parameter.fail("another scanner has the topic '" + config.topic + "' already");
+    }
+    addScanner(config);
+  }
+}
+
+void SimSensorNode::addScanner(const SimScannerConfig& config) {
+  const auto profile = config.profile.empty()
+                           ? simulation::ScannerProfile{}
+                           : simulation::ScannerProfile::readFile(config.profile);
+  simulation_.addScanner(profile, config.mounting);
+  scanners_.push_back({config, node_.advertise<sensor_msgs::LaserScan>(config.topic, 50)});
+  broadcastMounting(config);
+}
+
+void SimSensorNode::broadcastMounting(const SimScannerConfig& config) {
+  const Eigen::Isometry3d T_base_sensor = config.mounting.T_base_sensor();
+  const Eigen::Quaterniond rotation(T_base_sensor.linear());
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = ros::Time::now();
+  message.header.frame_id = config_.base_frame;
+  message.child_frame_id = config.frame;
+  message.transform.translation.x = T_base_sensor.translation().x();
+  message.transform.translation.y = T_base_sensor.translation().y();
+  message.transform.translation.z = T_base_sensor.translation().z();
+  message.transform.rotation.x = rotation.x();
+  message.transform.rotation.y = rotation.y();
+  message.transform.rotation.z = rotation.z();
+  message.transform.rotation.w = rotation.w();
+  static_broadcaster_.sendTransform(message);
+}
+
+void SimSensorNode::startDriving() {
+  if (!config_.path.empty()) {
+    simulation_.follow(simulation::Path::readFile(config_.path));
+    return;
+  }
+  command_monitor_ = std::make_unique<bridge::InputMonitor>("cmd_vel", updater_);
+  command_subscriber_ = node_.subscribe("cmd_vel", 10, &SimSensorNode::onCommand, this);
+}
+
+void SimSensorNode::onCommand(const geometry_msgs::Twist& command) {
+  if (!std::isfinite(command.linear.x) || !std::isfinite(command.angular.z)) {
+    command_monitor_->drop("a velocity that is not finite");
+    return;
+  }
+  command_monitor_->accept();
+  simulation_.command({command.linear.x, command.angular.z});
+}
+
+void SimSensorNode::onTimer() {
+  const std::int64_t due = clock_.due(simulation_.time());
+  const auto last = std::llround(1e9 * config_.duration);
+  while (simulation_.time() + Simulation::kStep <= due) {
+    if (last > 0 && simulation_.time() >= last) return end();
+    step();
+  }
+}
+
+void SimSensorNode::step() {
+  if (simulation_.time() == 0) publishState();  // so that the first sweep is covered
+  auto sweeps = simulation_.step();
+  clock_.publish(simulation_.time());
+  for (auto& sweep : sweeps) publish(sweep);
+  const double due = 1e9 * static_cast<double>(odometry_messages_) / config_.odometry_rate;
+  if (static_cast<double>(simulation_.time()) >= due) publishState();
+}
+
+void SimSensorNode::publish(simulation::FinishedSweep& sweep) {
+  const Scanner& scanner = scanners_[sweep.scanner];
+  sweep.scan.stamp = clock_.stampOf(sweep.scan.stamp);
+  sweep.scan.frame = scanner.config.frame;
+  scanner.publisher.publish(bridge::toMessage(sweep.scan));
+}
+
+void SimSensorNode::publishState() {
+  publishOdometry();
+  publishGroundTruth();
+  last_odometry_ = {simulation_.time(), simulation_.robot().odometry().pose().mean};
+  ++odometry_messages_;
+}
+
+// What the wheels turned since the last message.
+bridge::UncertainTwist2 SimSensorNode::odometryTwist() const {
+  if (odometry_messages_ == 0) return {};
+  const double time = 1e-9 * static_cast<double>(simulation_.time() - last_odometry_.stamp);
+  const geometry::Pose2 step =
+      geometry::between(last_odometry_.pose, simulation_.robot().odometry().pose().mean);
+  return {step.log() / time, motion::stepCovariance(config_.robot.odometry, step) / (time * time)};
+}
+
+void SimSensorNode::publishOdometry() {
+  const auto pose = simulation_.robot().odometry().pose();
+  const auto message = bridge::toOdometryMessage(
+      {clock_.stampOf(simulation_.time()), config_.odom_frame, config_.base_frame}, pose,
+      odometryTwist());
+  odometry_publisher_.publish(message);
+  if (!config_.publish_tf) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header = message.header;
+  transform.child_frame_id = message.child_frame_id;
+  transform.transform = bridge::toTransform(pose.mean);
+  broadcaster_.sendTransform(transform);
+}
+
+void SimSensorNode::publishGroundTruth() {
+  const simulation::Robot& robot = simulation_.robot();
+  const Eigen::Vector3d twist(robot.velocity().linear, 0.0, robot.velocity().angular);
+  truth_publisher_.publish(bridge::toOdometryMessage(
+      {clock_.stampOf(simulation_.time()), config_.map_frame, config_.base_frame},
+      {robot.T_map_base(), Eigen::Matrix3d::Zero()}, {twist, Eigen::Matrix3d::Zero()}));
+}
+
+void SimSensorNode::end() {
+  if (simulation_.time() > last_odometry_.stamp)
+    publishState();  // so that the last sweep is covered
+  timer_.stop();
+  // The others get a moment to take in what was published last.
+  end_timer_ = node_.createWallTimer(
+      ros::WallDuration(1.0), [](const ros::WallTimerEvent&) { ros::shutdown(); }, true);
+}
+
+}  // namespace
+
+std::shared_ptr<void> makeSimSensor(ros::NodeHandle node, ros::NodeHandle private_node) {
+  return std::make_shared<SimSensorNode>(node, private_node);
 }
 
 }  // namespace sightline::nodes

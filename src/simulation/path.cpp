@@ -6,7 +6,8 @@
 namespace sightline::simulation {
 
 Path::Path(const config::Node& document) {
-  document.allowOnly({"speed", "turn_rate", "tolerance", "waypoints"});
+  document.allowOnly({"wait", "speed", "turn_rate", "tolerance", "waypoints"});
+  wait = document.numberOr("wait", wait, config::kNotNegative);
   speed = document.numberOr("speed", speed, config::kPositive);
   turn_rate = document.numberOr("turn_rate", turn_rate, config::kPositive);
   tolerance = document.numberOr("tolerance", tolerance, config::kPositive);

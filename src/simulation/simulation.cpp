@@ -20,6 +20,7 @@ void Simulation::addScanner(const ScannerProfile& profile, const Mounting& mount
 
 void Simulation::follow(const Path& path) {
   follower_.emplace(path, config_.acceleration);
+  departure_ = time_ + std::llround(1e9 * path.wait);
 }
 
 void Simulation::command(const Velocity& velocity) {
@@ -28,7 +29,7 @@ void Simulation::command(const Velocity& velocity) {
 }
 
 Velocity Simulation::wanted() {
-  if (follower_) return follower_->steer(robot_.T_map_base());
+  if (follower_) return time_ < departure_ ? Velocity{} : follower_->steer(robot_.T_map_base());
   const bool is_fresh =
       commanded_at_ && static_cast<double>(time_ - *commanded_at_) < config_.command_timeout * 1e9;
   return is_fresh ? command_ : Velocity{};

@@ -89,6 +89,15 @@ TEST(Simulation, FollowsAPathThroughItsWaypointsAndStaysAtTheEnd) {
   EXPECT_EQ(simulation.robot().T_map_base().coordinates(), end.coordinates());
 }
 
+TEST(Simulation, SetsOffOnceItHasWaited) {
+  Simulation simulation(box(50.0), {}, {}, 1);
+  simulation.follow(pathOf("{wait: 1.5, waypoints: [[3, 0]]}"));
+  run(simulation, 1.5);
+  EXPECT_EQ(simulation.robot().T_map_base().x(), 0.0);
+  run(simulation, 0.1);
+  EXPECT_GT(simulation.robot().T_map_base().x(), 0.0);
+}
+
 TEST(Simulation, SweepsComeAtTheirRateOnceTheyEnded) {
   Simulation simulation(box(5.0), {}, {}, 1);
   ScannerProfile profile;

@@ -15,12 +15,14 @@ namespace sightline::simulation {
 /// A way to drive, from wherever the robot stands.
 ///
 /// ```yaml
+/// wait: 2.0                           # s, before it sets off
 /// speed: 0.6                          # m/s
 /// turn_rate: 0.8                      # rad/s, at most
 /// tolerance: 0.3                      # m; this near to a waypoint the next one is headed for
 /// waypoints: [[1.0, 2.0], [1.0, 0.0]] # m, in the map
 /// ```
 struct Path {
+  double wait = 0.0;
   double speed = 0.6;
   double turn_rate = 0.8;
   double tolerance = 0.3;

@@ -57,6 +57,7 @@ class Simulation {
   Robot robot_;
   std::vector<Mounted> scanners_;
   std::optional<PathFollower> follower_;
+  std::int64_t departure_ = 0;  // of the follower
   Velocity command_;
   std::optional<std::int64_t> commanded_at_;
   std::int64_t time_ = 0;
