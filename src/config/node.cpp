@@ -148,19 +148,20 @@ std::string Node::text() const {
   return as<std::string>("a text");
 }
 
-std::vector<double> Node::numbers() const {
+std::vector<double> Node::numbers(Range range) const {
   std::vector<double> values;
   for (const Node& item : items()) {
-    values.push_back(item.number());
+    values.push_back(item.number(range));
     if (!std::isfinite(values.back())) item.fail("has to be finite");
   }
   return values;
 }
 
-std::vector<double> Node::numbers(std::size_t count) const {
-  auto values = numbers();
-  if (values.size() != count)
+std::vector<double> Node::numbers(std::size_t count, Range range) const {
+  auto values = numbers(range);
+  if (values.size() != count) {
     fail(fmt::format("expected {} numbers, found {}", count, values.size()));
+  }
   return values;
 }
 

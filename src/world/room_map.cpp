@@ -12,19 +12,22 @@ namespace {
 using config::Node;
 using geometry::Segment;
 
+// What a building may measure [m]: beyond, squares overflow or vanish.
+constexpr config::Range kLengths{0.001, 1e6};
+constexpr config::Range kCoordinates{-1e6, 1e6};
 // A door may stand this far from the walls it pierces: half the thickest wall between two rooms.
 constexpr double kMaxDoorDistance = 0.5;
 // Drawn by hand, what lies in a wall may overshoot its corner by this much.
 constexpr double kSlack = 0.02;
 
 Eigen::Vector2d pointOf(const Node& node) {
-  const auto xy = node.numbers(2);
+  const auto xy = node.numbers(2, kCoordinates);
   return {xy[0], xy[1]};
 }
 
 geometry::Pose2 poseOf(const Node& room) {
   if (!room.has("pose")) return {};
-  const auto p = room.at("pose").numbers(3);
+  const auto p = room.at("pose").numbers(3, kCoordinates);
   return {p[0], p[1], p[2]};
 }
 
@@ -54,17 +57,16 @@ struct Outline {
 };
 
 Outline rectangle(const Node& size) {
-  const auto items = size.items();
-  if (items.size() != 2) size.fail(fmt::format("expected 2 numbers, found {}", items.size()));
-  const double x = 0.5 * items[0].number(config::kPositive);
-  const double y = 0.5 * items[1].number(config::kPositive);
+  const auto lengths = size.numbers(2, kLengths);
+  const double x = 0.5 * lengths[0];
+  const double y = 0.5 * lengths[1];
   return {{{-x, -y}, {x, -y}, {x, y}, {-x, y}}, {"south", "east", "north", "west"}};
 }
 
 void checkSides(const Node& node, const Outline& outline) {
   for (std::size_t i = 0; i < outline.corners.size(); ++i) {
     const Segment side = outline.side(i);
-    if (!(side.length() > 0.0)) node.fail(fmt::format("wall {} has no length", i));
+    if (!(side.length() >= kLengths.min)) node.fail(fmt::format("wall {} has no length", i));
     for (std::size_t j = 0; j < i; ++j) {
       if (cross(side, outline.side(j))) node.fail(fmt::format("walls {} and {} cross", j, i));
     }
@@ -217,7 +219,7 @@ void RoomMap::addDoor(const Node& node) {
   if (names.size() != 2) node.at("between").fail("a door joins two rooms");
   Door door;
   door.centre_map = pointOf(node.at("at"));
-  door.width = node.at("width").number(config::kPositive);
+  door.width = node.at("width").number(kLengths);
   if (node.has("threshold")) door.threshold = node.at("threshold").flag();
   for (std::size_t side = 0; side < 2; ++side) {
     door.rooms[side] = roomNamed(names[side]);

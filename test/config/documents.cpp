@@ -1,12 +1,11 @@
 // What can be wrong with a document as a whole.
-#include <filesystem>
-#include <fstream>
 #include <random>
 
 #include <gmock/gmock.h>
 
 #include "config_error.h"
 #include "sightline/config/node.h"
+#include "temporary_folder.h"
 
 namespace sightline::config {
 namespace {
@@ -15,49 +14,35 @@ using test::errorOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-class Document : public testing::Test {
- protected:
-  Document() { std::filesystem::create_directories(folder_); }
-  ~Document() override { std::filesystem::remove_all(folder_); }
-
-  std::string write(const std::string& text) const {
-    const std::string path = (folder_ / "settings.yaml").string();
-    std::ofstream(path) << text;
-    return path;
-  }
-  std::string folder() const { return folder_.string(); }
-
- private:
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
-                                  (std::string("sightline_document_") +
-                                   testing::UnitTest::GetInstance()->current_test_info()->name());
-};
-
-TEST_F(Document, IsReadFromAFile) {
-  const Node node = Node::readFile(write("a: 1\nb: [1, 2]\n"));
+TEST(Document, IsReadFromAFile) {
+  const test::TemporaryFolder folder;
+  const Node node = Node::readFile(folder.write("settings.yaml", "a: 1\nb: [1, 2]\n"));
   EXPECT_TRUE(node.isMap());
   EXPECT_EQ(node.at("a").integer(), 1);
   EXPECT_THAT(node.source(), testing::EndsWith("settings.yaml"));
 }
 
-TEST_F(Document, ThatIsMissingIsNamed) {
-  const std::string path = folder() + "/none.yaml";
+TEST(Document, ThatIsMissingIsNamed) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("none.yaml");
   const Error error = errorOf([&] { Node::readFile(path); });
   EXPECT_EQ(error.source(), path);
   EXPECT_EQ(std::string(error.what()), path + ": no such file, or not readable");
 }
 
-TEST_F(Document, ThatIsAFolderIsNamed) {
-  EXPECT_THAT(errorOf([&] { Node::readFile(folder()); }).reason(), HasSubstr("folder"));
+TEST(Document, ThatIsAFolderIsNamed) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(errorOf([&] { Node::readFile(folder.path("")); }).reason(), HasSubstr("folder"));
 }
 
-TEST_F(Document, OfNoNameOrOfTooLongAOneIsAnError) {
+TEST(Document, OfNoNameOrOfTooLongAOneIsAnError) {
   errorOf([] { Node::readFile(""); });
   errorOf([] { Node::readFile(std::string(5000, 'x')); });
 }
 
-TEST_F(Document, ThatIsNotYamlIsToldWithItsLine) {
-  const std::string path = write("a: 1\nb: 2\nc: [1, 2\nd: 3\n");
+TEST(Document, ThatIsNotYamlIsToldWithItsLine) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write("settings.yaml", "a: 1\nb: 2\nc: [1, 2\nd: 3\n");
   const Error error = errorOf([&] { Node::readFile(path); });
   EXPECT_THAT(error.what(), StartsWith(path + ":"));
   EXPECT_THAT(error.reason(), StartsWith("not YAML: "));

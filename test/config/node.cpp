@@ -99,6 +99,9 @@ TEST(Node, ReadsListsOfFiniteNumbers) {
   const Error infinite = errorOf([] { value("[1, .inf]").numbers(); });
   EXPECT_EQ(infinite.key(), "group.value[1]");
   EXPECT_THAT(infinite.reason(), HasSubstr("finite"));
+  const Error outside = errorOf([] { value("[0.5, 2]").numbers(2, {0.0, 1.0}); });
+  EXPECT_EQ(outside.key(), "group.value[1]");
+  EXPECT_EQ(outside.reason(), "2 is outside [0, 1]");
   EXPECT_THAT(errorOf([] { value("3").numbers(); }).reason(), HasSubstr("expected a sequence"));
 }
 

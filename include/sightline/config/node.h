@@ -57,9 +57,10 @@ class Node {
   int integer(Range range = {}) const;
   bool flag() const;
   std::string text() const;
-  std::vector<double> numbers() const;
-  /// A sequence of exactly `count` numbers.
-  std::vector<double> numbers(std::size_t count) const;
+  /// A sequence of finite numbers.
+  std::vector<double> numbers(Range range = {}) const;
+  /// As above, of exactly `count` numbers.
+  std::vector<double> numbers(std::size_t count, Range range = {}) const;
 
   double numberOr(const std::string& key, double fallback, Range range = {}) const;
   std::string textOr(const std::string& key, const std::string& fallback) const;
