@@ -21,11 +21,11 @@ Eigen::Vector2d planeSize(const config::Node& node) {
   return {items[0].number(config::kPositive), items[1].number(config::kPositive)};
 }
 
-// One file of a world, read into the world that it belongs to.
+// One file of a world, read into the world that it belongs to, where it stands in it.
 class WorldFile {
  public:
-  WorldFile(World& world, std::vector<std::string> included_from)
-      : world_(world), included_from_(std::move(included_from)) {}
+  WorldFile(World& world, const geometry::Pose2& T_map_file, std::vector<std::string> included_from)
+      : world_(world), T_map_file_(T_map_file), included_from_(std::move(included_from)) {}
 
   void read(const config::Node& document) {
     document.allowOnly({"include", "rooms", "walls", "materials", "floor", "ceiling", "segments",
@@ -79,11 +79,19 @@ class WorldFile {
     auto chain = included_from_;
     chain.push_back(document.source());
     for (const auto& node : document.at("include").items()) {
-      if (std::find(chain.begin(), chain.end(), node.path()) != chain.end()) {
-        node.fail("a file cannot include itself");
+      node.allowOnly({"file", "pose"});
+      const std::string path = node.at("file").path();
+      if (std::find(chain.begin(), chain.end(), path) != chain.end()) {
+        node.at("file").fail("a file cannot include itself");
       }
-      WorldFile(world_, chain).read(config::Node::readFile(node.path()));
+      WorldFile(world_, T_map_file_ * placeOf(node), chain).read(config::Node::readFile(path));
     }
+  }
+
+  static geometry::Pose2 placeOf(const config::Node& node) {
+    if (!node.has("pose")) return {};
+    const auto pose = node.at("pose").numbers(3);
+    return {pose[0], pose[1], pose[2]};
   }
 
   void readWallDefaults(const config::Node& node) {
@@ -94,7 +102,7 @@ class WorldFile {
 
   void readRooms(const config::Node& node) {
     for (const auto& wall : solidWalls(RoomMap::readFile(node.path()))) {
-      world_.add(WorldSegment{wall, 0.0, wall_height_, wall_material_});
+      world_.add(WorldSegment{T_map_file_ * wall, 0.0, wall_height_, wall_material_});
     }
   }
 
@@ -113,14 +121,14 @@ class WorldFile {
     const geometry::Segment segment{planePoint(node.at("from")), planePoint(node.at("to"))};
     if (!(segment.length() > 0.0)) node.fail("from and to are the same point");
     const Upright upright = uprightOf(node);
-    world_.add(WorldSegment{segment, upright.bottom, upright.top, upright.material});
+    world_.add(WorldSegment{T_map_file_ * segment, upright.bottom, upright.top, upright.material});
   }
 
   void readBox(const config::Node& node) {
     node.allowOnly({"centre", "size", "yaw", "bottom", "top", "material"});
     const Eigen::Vector2d half = 0.5 * planeSize(node.at("size"));
-    const geometry::Pose2 T_map_box(planePoint(node.at("centre")), node.numberOr("yaw", 0.0));
-    addBox(T_map_box, half, uprightOf(node));
+    const geometry::Pose2 T_file_box(planePoint(node.at("centre")), node.numberOr("yaw", 0.0));
+    addBox(T_map_file_ * T_file_box, half, uprightOf(node));
   }
 
   void addBox(const geometry::Pose2& T_map_box, const Eigen::Vector2d& half,
@@ -141,11 +149,13 @@ class WorldFile {
   void readDisc(const config::Node& node) {
     node.allowOnly({"centre", "radius", "bottom", "top", "material"});
     const Upright upright = uprightOf(node);
-    world_.add(WorldDisc{planePoint(node.at("centre")), node.at("radius").number(config::kPositive),
-                         upright.bottom, upright.top, upright.material});
+    const Eigen::Vector2d centre_map = T_map_file_ * planePoint(node.at("centre"));
+    world_.add(WorldDisc{centre_map, node.at("radius").number(config::kPositive), upright.bottom,
+                         upright.top, upright.material});
   }
 
   World& world_;
+  geometry::Pose2 T_map_file_;
   std::vector<std::string> included_from_;
   double wall_height_ = WorldSegment{}.top;
   std::size_t wall_material_ = 0;
@@ -154,7 +164,7 @@ class WorldFile {
 }  // namespace
 
 World::World(const config::Node& document) : World() {
-  WorldFile(*this, {}).read(document);
+  WorldFile(*this, {}, {}).read(document);
 }
 
 }  // namespace sightline::world

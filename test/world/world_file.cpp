@@ -116,17 +116,35 @@ doors: [{between: [left, right], at: [0, 0.5], width: 0.9}]
 
 TEST_F(WorldFiles, IncludesFilesThatKnowItsMaterials) {
   write("parts/table.yaml", "discs: [{centre: [1, 0], radius: 0.1, material: oak}]");
-  const auto world = World::readFile(
-      write("w.yaml", "materials: {oak: {reflectivity: 0.4}}\ninclude: [parts/table.yaml]"));
+  const auto world = World::readFile(write(
+      "w.yaml", "materials: {oak: {reflectivity: 0.4}}\ninclude: [{file: parts/table.yaml}]"));
   ASSERT_EQ(world.discs().size(), 1u);
   EXPECT_EQ(world.materials()[world.discs()[0].material].name, "oak");
 }
 
+TEST_F(WorldFiles, PlacesWhatItIncludesWithinWhatThatIncludes) {
+  write("rooms.yaml", "rooms: {a: {size: [4, 2]}}");
+  write("inner.yaml", "rooms: rooms.yaml\nboxes: [{centre: [1, 0], size: [0.2, 0.2]}]");
+  write("middle.yaml",
+        "include: [{file: inner.yaml, pose: [0, 1, 0]}]\n"
+        "discs: [{centre: [2, 0], radius: 0.1}]\n"
+        "segments: [{from: [3, 0], to: [3, 1]}]");
+  const auto world = World::readFile(
+      write("outer.yaml", "include: [{file: middle.yaml, pose: [5, 0, 1.5707963267948966]}]"));
+  ASSERT_EQ(world.segments().size(), 9u);
+  EXPECT_TRUE(world.segments()[0].segment.start.isApprox(Eigen::Vector2d(5.0, -2.0), 1e-9));
+  EXPECT_TRUE(world.segments()[4].segment.midpoint().isApprox(Eigen::Vector2d(4.1, 1.0), 1e-9));
+  EXPECT_TRUE(world.segments()[8].segment.end.isApprox(Eigen::Vector2d(4.0, 3.0), 1e-9));
+  EXPECT_TRUE(world.discs()[0].centre.isApprox(Eigen::Vector2d(5.0, 2.0), 1e-9));
+  const auto box = world.plates()[0].corners;
+  EXPECT_TRUE((0.5 * (box[0] + box[2])).isApprox(Eigen::Vector2d(4.0, 1.0), 1e-9));
+}
+
 TEST_F(WorldFiles, RefusesToIncludeItselfOrWhatIsNotThere) {
-  write("a.yaml", "include: [b.yaml]");
-  const std::string b = write("b.yaml", "include: [a.yaml]");
+  write("a.yaml", "include: [{file: b.yaml}]");
+  const std::string b = write("b.yaml", "include: [{file: a.yaml}]");
   EXPECT_THROW(World::readFile(b), config::Error);
-  const std::string c = write("c.yaml", "include: [missing.yaml]");
+  const std::string c = write("c.yaml", "include: [{file: missing.yaml}]");
   EXPECT_THROW(World::readFile(c), config::Error);
   EXPECT_THROW(World::readFile((folder_ / "nowhere.yaml").string()), config::Error);
 }

@@ -61,7 +61,8 @@ struct Hit {
 /// in the map frame.
 ///
 /// ```yaml
-/// include: [furniture/office.yaml]    # further files of this kind
+/// include:                            # further files of this kind
+///   - {file: furniture/office.yaml, pose: [6.2, 2.8, 0.0]}   # m, m, rad: where its frame stands
 /// rooms: ../rooms/floor.yaml          # a RoomMap whose walls stand here, doors being open
 /// walls: {height: 2.5, material: plaster}     # of these walls; this is the default
 /// materials:                          # besides plaster
