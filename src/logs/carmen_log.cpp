@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "sightline/config/error.h"
 #include "sightline/logs/fields.h"
 
 namespace sightline::logs {
@@ -18,6 +17,16 @@ using geometry::radians;
 
 // More than any scanner has, so that a damaged number does not become an allocation.
 constexpr std::size_t kMostBeams = 100'000;
+
+constexpr std::size_t kLongestKind = 32;
+
+// Kinds of messages are written in capitals, as ROBOTLASER1 and SYNC are.
+bool couldBeKind(const std::string& word) {
+  const auto is_capital = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return word.size() <= kLongestKind && std::all_of(word.begin(), word.end(), is_capital);
+}
 
 struct BeamLayout {
   double angle_min;
@@ -88,8 +97,7 @@ CarmenLaser readFrontLaser(Fields& fields) {
   return laser;
 }
 
-CarmenLaser readRobotLaser(Fields& fields) {
-  CarmenLaser laser;
+void readScanner(Fields& fields, CarmenLaser& laser) {
   fields.number("laser_type");
   laser.angle_min = fields.finite("start_angle");
   fields.finite("field_of_view");
@@ -99,6 +107,9 @@ CarmenLaser readRobotLaser(Fields& fields) {
   if (range_max > 0.0) laser.range_max = range_max;
   fields.number("accuracy");
   fields.number("remission_mode");
+}
+
+void readReadings(Fields& fields, CarmenLaser& laser) {
   const std::size_t beams = fields.count("num_readings", kMostBeams);
   if (beams == 0) fields.fail("num_readings: no beams");
   laser.ranges = readValues(fields, beams, "a reading");
@@ -107,7 +118,13 @@ CarmenLaser readRobotLaser(Fields& fields) {
     fields.fail(fmt::format("num_remissions: {} for {} readings", remissions, beams));
   }
   laser.remissions = readValues(fields, remissions, "a remission");
-  readPose(fields);
+}
+
+CarmenLaser readRobotLaser(Fields& fields) {
+  CarmenLaser laser;
+  readScanner(fields, laser);
+  readReadings(fields, laser);
+  readPose(fields);  // of the laser
   laser.robot = readPose(fields);
   laser.velocity = readVelocity(fields);
   for (const char* name : {"forward_safety_dist", "side_safety_dist", "turn_axis"}) {
@@ -156,8 +173,9 @@ void CarmenReader::skip() {
   if (fields.atEnd()) return;
   const std::string kind = fields.word("the kind");
   if (kind[0] == '#') return;
-  // Of the last line, even the kind may be cut.
-  if (lines_.isUnterminated()) sayCutOff("the kind " + kind + " is unknown");
+  if (lines_.isUnterminated() || !couldBeKind(kind)) {
+    fields.fail(fmt::format("no message starts with '{}'", kind.substr(0, kLongestKind)));
+  }
   ++skipped_[kind];
 }
 
@@ -166,20 +184,22 @@ void CarmenReader::sayCutOff(const std::string& sign) {
                          lines_.number(), sign);
 }
 
-std::optional<CarmenMessage> CarmenReader::parse() {
-  try {
-    return parseCarmenLine(line_, lines_.path(), lines_.number());
-  } catch (const config::Error& error) {
-    if (!lines_.isUnterminated()) throw;
-    sayCutOff(error.key() + ": " + error.reason());
-    return std::nullopt;
+void CarmenReader::noteFault(const config::Error& error) {
+  if (lines_.isUnterminated()) {
+    sayCutOff(error.key().empty() ? error.reason() : error.key() + ": " + error.reason());
+  } else if (bad_lines_++ == 0) {
+    first_fault_ = error.what();
   }
 }
 
 std::optional<CarmenMessage> CarmenReader::next() {
   while (lines_.next(line_)) {
-    if (auto message = parse()) return message;
-    if (cut_off_.empty()) skip();
+    try {
+      if (auto message = parseCarmenLine(line_, lines_.path(), lines_.number())) return message;
+      skip();
+    } catch (const config::Error& error) {
+      noteFault(error);
+    }
   }
   if (cut_off_.empty() && lines_.isCutOff()) {
     cut_off_ = fmt::format("{}:{}: the log is cut off: its compressed data end too early",
@@ -201,6 +221,8 @@ CarmenLog readCarmenLog(const std::string& path) {
   std::stable_sort(log.scans.begin(), log.scans.end(), isEarlier<CarmenLaser>);
   std::stable_sort(log.odometry.begin(), log.odometry.end(), isEarlier<CarmenOdometry>);
   log.skipped = reader.skipped();
+  log.bad_lines = reader.badLines();
+  log.first_fault = reader.firstFault();
   log.cut_off = reader.cutOff();
   return log;
 }

@@ -122,11 +122,19 @@ TEST(ReadCarmenLog, SortsByStampAndCountsWhatItDoesNotRead) {
   EXPECT_THAT(log.cut_off, IsEmpty());
 }
 
-TEST(ReadCarmenLog, StopsAtALineItCannotUnderstand) {
-  const config::Error error =
-      errorOf([] { logOf(flaser(180, "12.5") + "ODOM 1 2\n" + flaser(180, "12.7")); });
-  EXPECT_EQ(error.line(), 2);
-  EXPECT_EQ(error.key(), "ODOM");
+TEST(ReadCarmenLog, PassesOverLinesItCannotUnderstand) {
+  const CarmenLog log = logOf(flaser(180, "12.5") + "ODOM 1 2\nFLASER x\n" + flaser(180, "12.7"));
+  EXPECT_EQ(log.scans.size(), 2U);
+  EXPECT_EQ(log.bad_lines, 2U);
+  EXPECT_THAT(log.first_fault, HasSubstr("a.clf:2: ODOM: the line ends where theta should be"));
+  EXPECT_THAT(log.cut_off, IsEmpty());
+}
+
+TEST(ReadCarmenLog, TakesOnlyCapitalsForTheKindOfAMessage) {
+  const CarmenLog log = logOf("TRUEPOS 1 2 3\n<html>\n");
+  EXPECT_THAT(log.skipped, ElementsAre(Pair("TRUEPOS", 1U)));
+  EXPECT_EQ(log.bad_lines, 1U);
+  EXPECT_THAT(log.first_fault, HasSubstr("a.clf:2: no message starts with '<html>'"));
 }
 
 TEST(ReadCarmenLog, KeepsEverythingBeforeALineThatIsCutOff) {

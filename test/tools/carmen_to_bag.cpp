@@ -40,9 +40,19 @@ TEST(CarmenToBag, KeepsWhatPrecedesTheCutOfALog) {
 
 TEST(CarmenToBag, NamesLineAndKindOfWhatItCannotRead) {
   const TemporaryFolder folder;
-  const auto result = convert(folder, "ODOM 1 2 x 0 0 0 12.5 h 0\n" + test::carmenRoomLog(1));
+  const std::string bad = "ODOM 1 2 x 0 0 0 12.5 h 0\n";
+  const auto result = convert(folder, bad + test::carmenRoomLog(1));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.output, HasSubstr("a.clf:1: ODOM: theta: expected a number, found 'x'\n"));
+  EXPECT_THAT(result.output, HasSubstr("1 lines that cannot be understood are left out\n"));
+  EXPECT_THAT(result.output, HasSubstr("1 scans, 2 odometry poses\n"));
+}
+
+TEST(CarmenToBag, MakesNoBagOfALogWithoutScans) {
+  const TemporaryFolder folder;
+  const auto result = convert(folder, "some text\n");
   EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.output, HasSubstr("a.clf:1: ODOM: theta: expected a number, found 'x'"));
+  EXPECT_THAT(result.output, HasSubstr("no scans in the log: neither FLASER nor ROBOTLASER1"));
   EXPECT_FALSE(std::filesystem::exists(folder.path("a.bag")));
 }
 

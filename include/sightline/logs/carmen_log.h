@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "sightline/config/error.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/logs/line_reader.h"
 
@@ -58,22 +59,28 @@ class CarmenReader {
   /// Throws config::Error if the file cannot be opened.
   explicit CarmenReader(const std::string& path) : lines_(path) {}
 
-  /// The next message that is read; nothing at the end, which is also where a log is cut off.
-  /// Throws config::Error; the lines after a bad one can still be read.
+  /// The next message that is read; nothing at the end, which is also where a log is cut off. A
+  /// line that cannot be understood is passed over. Throws config::Error on damaged compression and
+  /// on what is no text.
   std::optional<CarmenMessage> next();
 
+  /// How many lines could not be understood, and what was wrong with the first of them.
+  std::size_t badLines() const { return bad_lines_; }
+  const std::string& firstFault() const { return first_fault_; }
   /// Where and how the log is cut off, empty if it is whole.
   const std::string& cutOff() const { return cut_off_; }
   /// How many lines there were of each kind that is not read.
   const std::map<std::string, std::size_t>& skipped() const { return skipped_; }
 
  private:
-  std::optional<CarmenMessage> parse();
   void skip();
   void sayCutOff(const std::string& sign);
+  void noteFault(const config::Error& error);
 
   LineReader lines_;
   std::string line_;
+  std::size_t bad_lines_ = 0;
+  std::string first_fault_;
   std::string cut_off_;
   std::map<std::string, std::size_t> skipped_;
 };
@@ -84,10 +91,12 @@ struct CarmenLog {
   std::vector<CarmenOdometry> odometry;
   std::map<std::string, std::string> parameters;
   std::map<std::string, std::size_t> skipped;  ///< lines of kinds that are not read
+  std::size_t bad_lines = 0;                   ///< that could not be understood
+  std::string first_fault;                     ///< what was wrong with the first of them, and where
   std::string cut_off;                         ///< where and how, empty if the log is whole
 };
 
-/// Throws config::Error.
+/// Throws config::Error where the file cannot be read.
 CarmenLog readCarmenLog(const std::string& path);
 
 }  // namespace sightline::logs
