@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
 namespace sightline::config {
 
@@ -16,19 +19,35 @@ Node::Node(YAML::Node yaml, std::string source, std::string key)
 
 namespace {
 
-template <class Load>
-Node loadDocument(const Load& load, const std::string& source) {
-  try {
-    const std::vector<YAML::Node> documents = load();
-    if (documents.size() > 1) {
-      throw Error(source, documents[1].Mark().line + 1, "", "a second document; expected one");
-    }
-    return Node(documents.empty() ? YAML::Node() : documents.front(), source);
-  } catch (const YAML::BadFile&) {
-    throw Error(source, 0, "", "no such file, or not readable");
-  } catch (const YAML::Exception& error) {
-    throw Error(source, error.mark.is_null() ? 0 : error.mark.line + 1, "",
-                "not YAML: " + error.msg);
+// Notes where the second document of a text begins. YAML::Load looks at the first one alone.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override { line_ = mark.line + 1; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  int line() const { return line_; }
+
+ private:
+  int line_ = 0;
+};
+
+void refuseSecondDocument(const std::string& text, const std::string& source) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts starts;
+  // No further than to the second: yaml-cpp finds documents without end in some broken texts.
+  if (parser.HandleNextDocument(starts) && parser.HandleNextDocument(starts)) {
+    throw Error(source, starts.line(), "", "a second document; expected one");
   }
 }
 
@@ -53,11 +72,21 @@ Node Node::readFile(const std::string& path) {
   if (std::filesystem::is_directory(path, unreadable)) {
     throw Error(path, 0, "", "is a folder, not a file");
   }
-  return loadDocument([&] { return YAML::LoadAllFromFile(path); }, path);
+  const std::ifstream file(path);
+  if (!file) throw Error(path, 0, "", "no such file, or not readable");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return parse(text.str(), path);
 }
 
 Node Node::parse(const std::string& text, const std::string& source) {
-  return loadDocument([&] { return YAML::LoadAll(text); }, source);
+  try {
+    refuseSecondDocument(text, source);
+    return Node(YAML::Load(text), source);
+  } catch (const YAML::Exception& error) {
+    const int line = error.mark.is_null() ? 0 : error.mark.line + 1;
+    throw Error(source, line, "", "not YAML: " + error.msg);
+  }
 }
 
 bool Node::isMap() const {
