@@ -30,7 +30,7 @@ double frontLaserMax(const logs::CarmenLog& log) {
   return stated > 0.0 && stated < kSickFault ? stated : kSickFault;
 }
 
-float rangeOf(float reading, double range_max) {
+float rosRange(float reading, double range_max) {
   if (static_cast<double>(reading) >= range_max) return std::numeric_limits<float>::infinity();
   return reading > 0.0F ? reading : std::numeric_limits<float>::quiet_NaN();
 }
@@ -46,7 +46,7 @@ sensor_msgs::LaserScan scanOf(const logs::CarmenLaser& laser, double front_laser
   scan.angle_max = static_cast<float>(laser.angle_min + last * laser.angle_increment);
   scan.range_max = static_cast<float>(range_max);
   scan.ranges.reserve(laser.ranges.size());
-  for (const float reading : laser.ranges) scan.ranges.push_back(rangeOf(reading, range_max));
+  for (const float reading : laser.ranges) scan.ranges.push_back(rosRange(reading, range_max));
   scan.intensities = laser.remissions;
   return scan;
 }
