@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <rosbag/view.h>
 
+#include "sightline/bridge/mountings.h"
 #include "sightline/bridge/time.h"
 #include "sightline/config/error.h"
 #include "sightline/pipeline/scan_motion.h"
@@ -35,6 +36,7 @@ std::set<std::string> laserTopics(rosbag::View& view) {
 BagScans::BagScans(const std::string& path, const pipeline::OfflineConfig& config, bool use_wheels)
     : path_(path), frames_(config.frames), use_wheels_(use_wheels) {
   for (const std::string& topic : config.scans) readers_.emplace(fromRoot(topic), config.noise);
+  transforms_.add(mountingTransforms(config), /*is_static=*/true);
   withPath([&] { bag_.open(path, rosbag::bagmode::Read); });
   checkTopics();
 }

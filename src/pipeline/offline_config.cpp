@@ -23,6 +23,15 @@ void readGroup(const Node& document, const char* key, Config& config) {
   config::read(group, config);
 }
 
+std::map<std::string, geometry::Pose2> readMountings(const Node& node) {
+  std::map<std::string, geometry::Pose2> mountings;
+  for (const auto& [frame, pose] : node.entries()) {
+    const std::vector<double> numbers = pose.numbers(3);
+    mountings[frame] = {numbers[0], numbers[1], numbers[2]};
+  }
+  return mountings;
+}
+
 RoomsConfig readRooms(const Node& node) {
   RoomsConfig rooms;
   config::read(node, rooms);
@@ -52,10 +61,11 @@ void RoomsConfig::visit(config::FieldVisitor& visitor) {
 
 OfflineConfig OfflineConfig::readFile(const std::string& path) {
   const Node document = Node::readFile(path);
-  document.allowOnly({"scans", "frames", "noise", "lines", "rooms"});
+  document.allowOnly({"scans", "frames", "mountings", "noise", "lines", "rooms"});
   OfflineConfig config;
   if (document.has("scans")) config.scans = readTopics(document.at("scans"));
   readGroup(document, "frames", config.frames);
+  if (document.has("mountings")) config.mountings = readMountings(document.at("mountings"));
   readGroup(document, "noise", config.noise);
   readGroup(document, "lines", config.lines);
   if (document.has("rooms")) config.rooms = readRooms(document.at("rooms"));

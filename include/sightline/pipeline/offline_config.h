@@ -1,10 +1,12 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sightline/config/fields.h"
+#include "sightline/geometry/pose2.h"
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/scan/noise_model.h"
 #include "sightline/tracking/tracker_config.h"
@@ -35,6 +37,8 @@ struct RoomsConfig {
 /// ```yaml
 /// scans: [scan]                                # topics
 /// frames: {map: map, odom: odom, base: base_link}
+/// mountings: {laser: [0.2, 0.0, 0.0]}          # x, y, yaw of a scanner's frame on the base [m, m, rad],
+///                                              # where the recording does not tell
 /// noise: {sigma: 0.01}                         # as scan::NoiseModel
 /// lines: {min_length: 0.5}                     # as lines::LineExtractorConfig
 /// rooms:                                       # where the room tracker is wanted
@@ -45,6 +49,7 @@ struct RoomsConfig {
 struct OfflineConfig {
   std::vector<std::string> scans{"scan"};
   Frames frames;
+  std::map<std::string, geometry::Pose2> mountings;  ///< by frame
   scan::NoiseModel noise;
   lines::LineExtractorConfig lines;
   std::optional<RoomsConfig> rooms;
