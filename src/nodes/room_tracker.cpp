@@ -82,6 +82,7 @@ class RoomTrackerNode {
   TrackerStatus last_status_;
   double odometry_scale_ = 1.0;
 
+  boost::recursive_mutex reconfigure_mutex_;
   dynamic_reconfigure::Server<RoomTrackerConfig> reconfigure_;
   ros::Publisher pose_publisher_;
   ros::Publisher status_publisher_;
@@ -112,7 +113,7 @@ RoomTrackerNode::RoomTrackerNode(ros::NodeHandle node, ros::NodeHandle private_n
       config_(readConfig(private_node)),
       tracker_(config_.tracker, world::RoomMap::readFile(config_.rooms)),
       updater_(node, private_node),
-      reconfigure_(ros::NodeHandle(private_node, "tracker")) {
+      reconfigure_(reconfigure_mutex_, ros::NodeHandle(private_node, "tracker")) {
   updater_.setHardwareID("none");
   updater_.add("tracking", this, &RoomTrackerNode::report);
   pose_publisher_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 10);
