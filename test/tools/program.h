@@ -15,10 +15,8 @@ struct ProgramResult {
   std::string output;
 };
 
-/// Runs one of the package's own programs. Arguments are parted by blanks.
-inline ProgramResult runProgram(const std::string& name, const std::string& arguments) {
-  const std::string command = SIGHTLINE_PROGRAMS "/" + name + " " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
+inline ProgramResult runCommand(const std::string& command) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   if (!pipe) throw std::runtime_error("cannot run " + command);
   ProgramResult result;
   std::array<char, 4096> buffer{};
@@ -27,6 +25,11 @@ inline ProgramResult runProgram(const std::string& name, const std::string& argu
   }
   result.status = WEXITSTATUS(pclose(pipe));
   return result;
+}
+
+/// Runs one of the package's own programs. Arguments are parted by blanks.
+inline ProgramResult runProgram(const std::string& name, const std::string& arguments) {
+  return runCommand(SIGHTLINE_PROGRAMS "/" + name + " " + arguments);
 }
 
 }  // namespace sightline::test

@@ -1,0 +1,120 @@
+// Every file that is shipped loads.
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "nodes/line_extractor_config.h"
+#include "nodes/room_tracker_config.h"
+#include "sightline/pipeline/offline_config.h"
+#include "sightline/simulation/path.h"
+#include "sightline/simulation/scanner_profile.h"
+#include "sightline/world/room_map.h"
+#include "sightline/world/world.h"
+#include "tools/program.h"
+
+namespace sightline {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSource = SIGHTLINE_SOURCE_DIR;
+
+std::vector<std::string> filesBelow(const std::string& folder, const std::string& extension) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void expectToLoad(const std::string& folder, const std::function<void(const std::string&)>& load) {
+  const auto files = filesBelow(folder, ".yaml");
+  EXPECT_FALSE(files.empty()) << folder;
+  for (const std::string& file : files) EXPECT_NO_THROW(load(file)) << file;
+}
+
+template <class Config>
+void expectParameters(const std::string& file) {
+  Config config;
+  EXPECT_NO_THROW(
+      config::read(config::Node::readFile((kSource / "config" / file).string()), config));
+}
+
+TEST(ShippedFiles, Rooms) {
+  expectToLoad("config/rooms", world::RoomMap::readFile);
+}
+TEST(ShippedFiles, Worlds) {
+  expectToLoad("config/worlds", world::World::readFile);
+}
+TEST(ShippedFiles, Sensors) {
+  expectToLoad("config/sensors", simulation::ScannerProfile::readFile);
+}
+TEST(ShippedFiles, Paths) {
+  expectToLoad("config/paths", simulation::Path::readFile);
+}
+TEST(ShippedFiles, Offline) {
+  expectToLoad("config/offline", pipeline::OfflineConfig::readFile);
+}
+TEST(ShippedFiles, Replay) {
+  expectToLoad("config/replay", pipeline::OfflineConfig::readFile);
+}
+
+TEST(ShippedFiles, Parameters) {
+  expectParameters<nodes::LineExtractorNodeConfig>("line_extractor.yaml");
+  expectParameters<nodes::RoomTrackerNodeConfig>("room_tracker.yaml");
+}
+
+TEST(ShippedFiles, EveryConfigurationHasARoomAbove) {
+  for (const std::string& file : filesBelow("config", ".yaml")) {
+    const std::string folder = fs::relative(file, kSource / "config").begin()->string();
+    const std::vector<std::string> known{"rooms",
+                                         "worlds",
+                                         "sensors",
+                                         "paths",
+                                         "offline",
+                                         "replay",
+                                         "line_extractor.yaml",
+                                         "room_tracker.yaml"};
+    EXPECT_NE(std::find(known.begin(), known.end(), folder), known.end())
+        << file << " is loaded by no test";
+  }
+}
+
+TEST(ShippedFiles, Launch) {
+  const auto files = filesBelow("launch", ".launch");
+  EXPECT_GE(files.size(), 4U);
+  for (const std::string& file : files) {
+    // Arguments without a default; those that a file does not have are refused only by the
+    // including one.
+    std::string arguments;
+    if (file.find("replay") != std::string::npos) arguments = " bag:=a.bag config:=a.yaml";
+    if (file.find("room_tracker") != std::string::npos) arguments = " rooms:=rooms.yaml";
+    const auto result = test::runCommand("roslaunch --nodes " + file + arguments);
+    EXPECT_EQ(result.status, 0) << file << ": " << result.output;
+    EXPECT_NE(result.output.find('/'), std::string::npos) << file << " starts nothing";
+  }
+}
+
+TEST(ShippedFiles, Rviz) {
+  const auto files = filesBelow("rviz", ".rviz");
+  EXPECT_FALSE(files.empty());
+  for (const std::string& file : files) {
+    const auto rviz = config::Node::readFile(file);
+    EXPECT_FALSE(rviz.at("Visualization Manager").at("Displays").items().empty()) << file;
+  }
+}
+
+TEST(DescribeParameters, ThePageIsUpToDate) {
+  const auto printed = test::runProgram("describe_parameters", "");
+  const auto page = test::runCommand("cat " + (kSource / "docs/Parameters.md").string());
+  EXPECT_EQ(printed.output, page.output)
+      << "run: scripts/env rosrun sightline describe_parameters > docs/Parameters.md";
+}
+
+}  // namespace
+}  // namespace sightline
