@@ -21,7 +21,7 @@ PolarLine drawLine(test::Gauss& gauss) {
   return {gauss.uniform(0.0, 8.0), gauss.uniform(-kPi, kPi), Matrix2d::Zero()};
 }
 
-Vector2d minus(const Vector2d& a, const Vector2d& b) {
+Vector2d apart(const Vector2d& a, const Vector2d& b) {
   return {a[0] - b[0], wrapAngle(a[1] - b[1])};
 }
 
@@ -104,8 +104,8 @@ TEST(PolarLine, JacobiansAreTheDerivatives) {
     const auto by_pose = [&](const Vector3d& at) {
       return coordinates(transform(Pose2(at), line));
     };
-    const Matrix2d numeric_line = test::numericJacobian<2, 2>(by_line, coordinates(line), minus);
-    const auto numeric_pose = test::numericJacobian<2, 3>(by_pose, T.coordinates(), minus);
+    const Matrix2d numeric_line = test::numericJacobian<2, 2>(by_line, coordinates(line), apart);
+    const auto numeric_pose = test::numericJacobian<2, 3>(by_pose, T.coordinates(), apart);
     EXPECT_LT((transformJacobianLine(T, line) - numeric_line).norm(), 1e-7);
     EXPECT_LT((transformJacobianPose(T, line) - numeric_pose).norm(), 1e-7);
   }

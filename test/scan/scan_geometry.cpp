@@ -15,7 +15,7 @@ using geometry::radians;
 using testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 template <class Call>
 std::string faultOf(const Call& call) {
@@ -62,7 +62,7 @@ TEST(ScanGeometry, MayRunClockwise) {
 }
 
 TEST(ScanGeometry, MayHaveOneBeamOfAnyIncrement) {
-  for (const double increment : {0.0, 0.1, kNan, kInfinity}) {
+  for (const double increment : {0.0, 0.1, kNan, kEndless}) {
     const auto geometry = ScanGeometry::uniform(0.3, increment, 1, 0.0, 0.1, 30.0);
     EXPECT_EQ(geometry->angles().front(), 0.3);
     EXPECT_EQ(geometry->angleIncrement(), 0.0);
@@ -71,9 +71,9 @@ TEST(ScanGeometry, MayHaveOneBeamOfAnyIncrement) {
 }
 
 TEST(ScanGeometry, MayBeUnevenAndUnlimited) {
-  const ScanGeometry geometry({-1.0, 0.0, 0.5}, {0.0, 0.02, 0.01}, 0.0, kInfinity);
+  const ScanGeometry geometry({-1.0, 0.0, 0.5}, {0.0, 0.02, 0.01}, 0.0, kEndless);
   EXPECT_NEAR(geometry.angleIncrement(), 0.75, 1e-15);
-  EXPECT_EQ(geometry.rangeMax(), kInfinity);
+  EXPECT_EQ(geometry.rangeMax(), kEndless);
 }
 
 TEST(ScanGeometry, RefusesNoBeams) {
@@ -83,12 +83,12 @@ TEST(ScanGeometry, RefusesNoBeams) {
 TEST(ScanGeometry, RefusesAnIncrementThatLeadsNowhere) {
   EXPECT_EQ(faultOfUniform(0.0, 0.0, 10), "an angle increment of 0");
   EXPECT_EQ(faultOfUniform(0.0, kNan, 10), "an angle increment of nan");
-  EXPECT_EQ(faultOfUniform(0.0, kInfinity, 10), "an angle increment of inf");
+  EXPECT_EQ(faultOfUniform(0.0, kEndless, 10), "an angle increment of inf");
 }
 
 TEST(ScanGeometry, RefusesAnglesThatAreNotFinite) {
   EXPECT_THAT(faultOfUniform(kNan, 0.1, 10), HasSubstr("not finite"));
-  EXPECT_THAT(faultOfUniform(kInfinity, 0.1, 1), HasSubstr("not finite"));
+  EXPECT_THAT(faultOfUniform(kEndless, 0.1, 1), HasSubstr("not finite"));
   EXPECT_THAT(faultOfAngles({0.0, kNan, 0.2}), HasSubstr("not finite"));
 }
 

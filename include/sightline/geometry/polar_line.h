@@ -42,7 +42,8 @@ Eigen::Matrix2d transformJacobianLine(const Pose2& T_target_source, const PolarL
 Eigen::Matrix<double, 2, 3> transformJacobianPose(const Pose2& T_target_source,
                                                   const PolarLine& line_source);
 
-/// The line described with the normal that lies within 90° of the reference's; ρ may become negative.
+/// The line described with the normal that lies within 90° of the reference's; ρ may become
+/// negative.
 PolarLine describedLike(const PolarLine& reference, const PolarLine& line);
 
 /// Difference a − b of two descriptions of nearly the same line, as (Δρ, Δφ), over the seam of φ
