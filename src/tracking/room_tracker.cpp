@@ -19,6 +19,8 @@ using geometry::Pose2;
 // A beam is on a wall if it ends this close to it: what plaster, skirting boards and a pose in the
 // middle of a correction leave open.
 constexpr double kWallTolerance = 0.1;
+// A pose may be this far past a door when it is first found in the next room [m].
+constexpr double kDoorReach = 1.0;
 // Fewer beams than this say nothing about whether the room fits.
 constexpr std::size_t kEvidence = 20;
 
@@ -61,6 +63,7 @@ class RoomTracker::Impl {
   void applyWalls(PoseFilter& filter, std::vector<WallObservation>& walls) const;
   bool contradictsPrediction(const Explanation& explanation) const;
   void changeRoom();
+  bool hasDoors(std::size_t room) const;
   TrackerState judge(const RoomFit& fit);
   TrackerUpdate report(const scan::Scan& scan, const Pose2& T_odom_base, Explanation explanation);
 
@@ -194,15 +197,29 @@ void RoomTracker::Impl::changeRoom() {
   const auto entered = map_.roomAt(position, room_);
   if (!entered || *entered == room_) return;
   const world::Door* door = map_.doorBetween(room_, *entered, position);
+  // Nobody walks through walls: a pose that does is wrong, and the room it comes from is the one to
+  // correct it by.
+  if (!door && hasDoors(room_)) return;
+  if (door && (door->centre_map - position).norm() > 0.5 * door->width + kDoorReach) return;
   room_ = *entered;
   if (door && door->threshold) {
     filter_->inflate(config_.threshold_position_sigma, config_.threshold_heading_sigma);
   }
 }
 
+bool RoomTracker::Impl::hasDoors(std::size_t room) const {
+  return std::any_of(map_.doors().begin(), map_.doors().end(), [&](const world::Door& door) {
+    return door.rooms[0] == room || door.rooms[1] == room;
+  });
+}
+
 TrackerState RoomTracker::Impl::judge(const RoomFit& fit) {
   const bool tells = fit.on_wall + fit.beyond >= kEvidence;
-  if (tells) misfits_ = fit.quality() < config_.lost_quality ? misfits_ + 1 : 0;
+  const bool outside =
+      map_.rooms()[room_].distance(filter_->pose().mean.translation()) > kDoorReach;
+  if (tells || outside) {
+    misfits_ = outside || fit.quality() < config_.lost_quality ? misfits_ + 1 : 0;
+  }
   if (misfits_ >= config_.lost_scans) return TrackerState::kLost;
   const Eigen::Matrix4d P = filter_->covariance();
   const double position = std::sqrt(std::max(P(0, 0), P(1, 1)));
@@ -249,7 +266,9 @@ RoomTracker::~RoomTracker() = default;
 RoomTracker::RoomTracker(RoomTracker&&) noexcept = default;
 RoomTracker& RoomTracker::operator=(RoomTracker&&) noexcept = default;
 
-void RoomTracker::configure(const TrackerConfig& config) { impl_->configure(config); }
+void RoomTracker::configure(const TrackerConfig& config) {
+  impl_->configure(config);
+}
 
 void RoomTracker::setPose(const geometry::UncertainPose2& T_map_base) {
   impl_->setPose(T_map_base);

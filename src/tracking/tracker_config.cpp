@@ -63,7 +63,10 @@ motion::OdometryNoise TrackerConfig::defaultOdometry() {
   noise.scale_sigma = 0.02;
   noise.heading_bias_per_metre = 0.0;
   noise.steering_bias = 0.0;
-  noise.steering_sigma = 0.01;
+  noise.distance_sigma = 0.02;
+  noise.lateral_sigma = 0.01;
+  noise.heading_sigma_per_metre = 0.02;
+  noise.steering_sigma = 0.05;
   return noise;
 }
 

@@ -94,7 +94,10 @@ simulation::RobotConfig robotConfig() {
 
 tracking::TrackerConfig trackerConfig() {
   tracking::TrackerConfig config;
-  // The map of this world is exact.
+  // The map of this world is exact, and the errors of the wheels are known but for the scale.
+  config.odometry = robotConfig().odometry;
+  config.odometry.scale_mean = 1.0;
+  config.odometry.scale_sigma = 0.02;
   config.wall.position_sigma = 0.0;
   config.wall.direction_sigma = 0.0;
   return config;

@@ -68,7 +68,7 @@ struct TrackerConfig {
 
   void visit(config::FieldVisitor& visitor);
 
-  /// Of a robot that nobody has measured: no biases, jensfelt's spreads.
+  /// Of a robot that nobody has measured: no biases, and twice jensfelt's spreads or more.
   static motion::OdometryNoise defaultOdometry();
 };
 
