@@ -40,6 +40,7 @@ class LineExtractorNode {
   std::size_t corrected_ = 0;
   std::size_t uncorrected_ = 0;
 
+  boost::recursive_mutex reconfigure_mutex_;
   dynamic_reconfigure::Server<LineExtractorConfig> reconfigure_;
   ros::Publisher lines_publisher_;
   ros::Publisher marker_publisher_;
@@ -53,8 +54,8 @@ LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle priva
       extractor_(config_.lines),
       markers_(config_.markers),
       updater_(node, private_node),
-      monitor_("scan", updater_),
-      reconfigure_(ros::NodeHandle(private_node, "lines")) {
+      monitor_(node.resolveName("scan"), updater_),
+      reconfigure_(reconfigure_mutex_, ros::NodeHandle(private_node, "lines")) {
   updater_.setHardwareID("none");
   if (!config_.fixed_frame.empty()) {
     sweep_.emplace(config_.fixed_frame);

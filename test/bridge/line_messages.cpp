@@ -1,0 +1,108 @@
+#include "sightline/bridge/line_messages.h"
+
+#include <gtest/gtest.h>
+
+#include "sightline/bridge/line_settings.h"
+
+namespace sightline::bridge {
+namespace {
+
+geometry::LineSegment segment() {
+  geometry::LineSegment result;
+  result.id = 7;
+  result.line.rho = 2.0;
+  result.line.phi = 0.5;
+  result.line.covariance << 1e-4, 2e-5, 2e-5, 3e-4;
+  result.ends = {{1.0, 2.0}, {3.0, 4.0}};
+  result.start_sigma = 0.01;
+  result.end_sigma = 0.02;
+  result.start_kind = geometry::EndKind::kCorner;
+  result.end_kind = geometry::EndKind::kScanLimit;
+  result.first_beam = 700;
+  result.last_beam = 20;
+  result.beams = 41;
+  result.chi_square = 38.5;
+  result.degrees_of_freedom = 39;
+  return result;
+}
+
+TEST(LineMessages, FillEveryField) {
+  const LineSegment message = toMessage(segment());
+  EXPECT_EQ(message.id, 7U);
+  EXPECT_EQ(message.rho, 2.0);
+  EXPECT_EQ(message.phi, 0.5);
+  EXPECT_EQ(message.covariance[0], 1e-4);
+  EXPECT_EQ(message.covariance[1], 2e-5);
+  EXPECT_EQ(message.covariance[2], 2e-5);
+  EXPECT_EQ(message.covariance[3], 3e-4);
+  EXPECT_EQ(message.start.x, 1.0);
+  EXPECT_EQ(message.start.y, 2.0);
+  EXPECT_EQ(message.end.x, 3.0);
+  EXPECT_EQ(message.end.y, 4.0);
+  EXPECT_EQ(message.start_sigma, 0.01);
+  EXPECT_EQ(message.end_sigma, 0.02);
+  EXPECT_EQ(message.start_kind, LineSegment::CORNER);
+  EXPECT_EQ(message.end_kind, LineSegment::SCAN_LIMIT);
+  EXPECT_EQ(message.first_beam, 700U);
+  EXPECT_EQ(message.last_beam, 20U);
+  EXPECT_EQ(message.beams, 41U);
+  EXPECT_EQ(message.chi_square, 38.5);
+  EXPECT_EQ(message.degrees_of_freedom, 39U);
+}
+
+TEST(LineMessages, ComeBackAsTheyWent) {
+  const LineSegment message = toMessage(segment());
+  EXPECT_EQ(toMessage(fromMessage(message)), message);
+  LineSegment strange = message;
+  strange.end_kind = 200;
+  EXPECT_EQ(fromMessage(strange).end_kind, geometry::EndKind::kUnknown);
+}
+
+TEST(LineMessages, KindsOfEndsHaveTheNumbersOfTheMessage) {
+  EXPECT_EQ(static_cast<int>(geometry::EndKind::kUnknown), LineSegment::UNKNOWN);
+  EXPECT_EQ(static_cast<int>(geometry::EndKind::kCorner), LineSegment::CORNER);
+  EXPECT_EQ(static_cast<int>(geometry::EndKind::kOccludingEdge), LineSegment::OCCLUDING_EDGE);
+  EXPECT_EQ(static_cast<int>(geometry::EndKind::kOccluded), LineSegment::OCCLUDED);
+  EXPECT_EQ(static_cast<int>(geometry::EndKind::kScanLimit), LineSegment::SCAN_LIMIT);
+}
+
+TEST(LineMessages, CarryStampAndFrameOfTheScanAlsoWhenEmpty) {
+  scan::Scan scan;
+  scan.stamp = 12'000'000'345;
+  scan.frame = "laser";
+  for (const std::size_t count : {0U, 3U}) {
+    const std::vector<geometry::LineSegment> segments(count, segment());
+    const LineSegmentArray message = toMessage(segments, scan);
+    EXPECT_EQ(message.header.stamp, ros::Time(12, 345));
+    EXPECT_EQ(message.header.frame_id, "laser");
+    EXPECT_EQ(message.segments.size(), count);
+    EXPECT_EQ(fromMessage(message).size(), count);
+  }
+}
+
+TEST(LineSettings, GoThereAndBack) {
+  lines::LineExtractorConfig config;
+  config.gate = 4.0;
+  config.misfit = 2.0;
+  config.start_phi_sigma = 0.1;
+  config.max_gap = 0.7;
+  config.max_gap_beams = 9;
+  config.min_length = 0.2;
+  config.min_beams = 6;
+  const auto back = fromReconfigure(toReconfigure(config));
+  EXPECT_EQ(back.gate, config.gate);
+  EXPECT_EQ(back.misfit, config.misfit);
+  EXPECT_EQ(back.start_phi_sigma, config.start_phi_sigma);
+  EXPECT_EQ(back.max_gap, config.max_gap);
+  EXPECT_EQ(back.max_gap_beams, config.max_gap_beams);
+  EXPECT_EQ(back.min_length, config.min_length);
+  EXPECT_EQ(back.min_beams, config.min_beams);
+}
+
+TEST(LineSettings, EveryFieldCanBeChangedWhileItRuns) {
+  EXPECT_EQ(sightline::LineExtractorConfig::__getParamDescriptions__().size(),
+            config::describe<lines::LineExtractorConfig>().size());
+}
+
+}  // namespace
+}  // namespace sightline::bridge
