@@ -49,7 +49,10 @@ TEST(ShippedFiles, Rooms) {
   expectToLoad("config/rooms", world::RoomMap::readFile);
 }
 TEST(ShippedFiles, Worlds) {
-  expectToLoad("config/worlds", world::World::readFile);
+  expectToLoad("config/worlds", [](const std::string& file) {
+    // Furniture is of the materials that the world which includes it names.
+    if (file.find("/furniture/") == std::string::npos) world::World::readFile(file);
+  });
 }
 TEST(ShippedFiles, Sensors) {
   expectToLoad("config/sensors", simulation::ScannerProfile::readFile);
