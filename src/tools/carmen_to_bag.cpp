@@ -1,19 +1,12 @@
 // Turns a CARMEN log into a bag.
 #include <cstdio>
 
-#include "arguments.h"
+#include "program/program.h"
 #include "sightline/bridge/bag_from_carmen.h"
 
 namespace {
 
 using namespace sightline;
-
-constexpr const char* kUsage =
-    "carmen_to_bag IN.clf[.gz] OUT.bag [--reverse-from-tv] [--odometry-delay SECONDS]\n"
-    "                     [--laser-offset METRES]\n"
-    "  --reverse-from-tv   turn odometry steps round where the logged velocity is negative\n"
-    "  --odometry-delay    stamp the odometry later by this\n"
-    "  --laser-offset      how far the laser sits ahead of base_link\n";
 
 // Whatever of the log does not get into the bag is said on standard error.
 void printLosses(const logs::CarmenLog& log) {
@@ -29,14 +22,8 @@ void printLosses(const logs::CarmenLog& log) {
   }
 }
 
-int convert(tools::Arguments& arguments) {
-  bridge::CarmenBagOptions options;
-  options.reverse_from_tv = arguments.flag("--reverse-from-tv");
-  options.odometry_delay = arguments.number("--odometry-delay", 0.0);
-  options.laser_offset = arguments.number("--laser-offset", 0.0);
-  const std::string in = arguments.positional("IN.clf");
-  const std::string out = arguments.positional("OUT.bag");
-  arguments.finish();
+int convert(const std::string& in, const std::string& out,
+            const bridge::CarmenBagOptions& options) {
   const logs::CarmenLog log = logs::readCarmenLog(in);
   printLosses(log);
   const auto contents = bridge::writeCarmenBag(log, options, out);
@@ -47,5 +34,17 @@ int convert(tools::Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sightline::tools::run(argc, argv, kUsage, convert);
+  std::string in;
+  std::string out;
+  bridge::CarmenBagOptions options;
+  tools::Program program("carmen_to_bag", "Turns a CARMEN log into a bag.");
+  program.positional("IN.clf", in, "the log, plain or gzipped");
+  program.positional("OUT.bag", out, "the bag, with scan, odom and tf");
+  program.flag("--reverse-from-tv", options.reverse_from_tv,
+               "turn odometry steps round where the logged velocity is negative");
+  program.option("--odometry-delay", options.odometry_delay, "SECONDS",
+                 "stamp the odometry later by this");
+  program.option("--laser-offset", options.laser_offset, "METRES",
+                 "how far the laser sits ahead of base_link");
+  return program.run(argc, argv, [&] { return convert(in, out, options); });
 }

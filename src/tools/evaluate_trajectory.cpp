@@ -1,20 +1,14 @@
 // Scores a trajectory against relations or against a true trajectory.
+#include <array>
 #include <cstdio>
+#include <optional>
 
-#include "arguments.h"
+#include "program/program.h"
 #include "sightline/logs/trajectory_error.h"
 
 namespace {
 
 using namespace sightline;
-
-constexpr const char* kUsage =
-    "evaluate_trajectory TRAJECTORY.tum (--relations FILE | --truth FILE.tum) [--offset X Y "
-    "THETA]\n"
-    "  TRAJECTORY.tum  `t x y z qx qy qz qw` or `t x y theta` a line; metres, radians\n"
-    "  --relations     `t1 t2 x y z roll pitch yaw` a line: the pose at t2 seen from that at t1\n"
-    "  --truth         a trajectory in the same frame\n"
-    "  --offset        the frame the truth holds for, in the frame whose trajectory this is\n";
 
 // What is printed, and an exit status of 1 where nothing could be compared.
 int print(const std::string& figures, bool any) {
@@ -23,29 +17,42 @@ int print(const std::string& figures, bool any) {
   return any ? 0 : 1;
 }
 
-int evaluate(tools::Arguments& arguments) {
-  const auto relations = arguments.text("--relations");
-  const auto truth = arguments.text("--truth");
-  const auto offset = arguments.numbers("--offset", 3).value_or(std::vector<double>{0.0, 0.0, 0.0});
-  const std::string path = arguments.positional("TRAJECTORY.tum");
-  arguments.finish();
-  if (relations.has_value() == truth.has_value()) {
+struct Comparison {
+  std::string trajectory;
+  std::optional<std::string> relations;  // either these
+  std::optional<std::string> truth;      // or this
+  std::array<double, 3> offset{};        // x, y, theta; m, rad
+};
+
+int evaluate(const Comparison& comparison) {
+  if (comparison.relations.has_value() == comparison.truth.has_value()) {
     throw tools::UsageError("either --relations or --truth is needed");
   }
-  const geometry::Pose2 T_body_measured(offset[0], offset[1], offset[2]);
-  const logs::Trajectory trajectory = logs::readTrajectory(path);
-  if (relations) {
-    const auto errors =
-        logs::compareWithRelations(trajectory, logs::readRelations(*relations), T_body_measured);
+  const auto [x, y, theta] = comparison.offset;
+  const geometry::Pose2 T_body_measured(x, y, theta);
+  const logs::Trajectory trajectory = logs::readTrajectory(comparison.trajectory);
+  if (comparison.relations) {
+    const auto relations = logs::readRelations(*comparison.relations);
+    const auto errors = logs::compareWithRelations(trajectory, relations, T_body_measured);
     return print(logs::figures(errors), errors.used > 0);
   }
-  const auto errors =
-      logs::compareWithTruth(trajectory, logs::readTrajectory(*truth), T_body_measured);
+  const auto truth = logs::readTrajectory(*comparison.truth);
+  const auto errors = logs::compareWithTruth(trajectory, truth, T_body_measured);
   return print(logs::figures(errors), errors.used > 0);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sightline::tools::run(argc, argv, kUsage, evaluate);
+  Comparison comparison;
+  tools::Program program("evaluate_trajectory",
+                         "Scores a trajectory, either against relations or against the truth.");
+  program.positional("TRAJECTORY.tum", comparison.trajectory,
+                     "`t x y z qx qy qz qw` or `t x y theta` a line; metres, radians");
+  program.option("--relations", comparison.relations, "FILE",
+                 "`t1 t2 x y z roll pitch yaw` a line: the pose at t2 seen from that at t1");
+  program.option("--truth", comparison.truth, "FILE.tum", "a trajectory in the same frame");
+  program.option("--offset", comparison.offset, "X Y THETA",
+                 "the frame the truth holds for, in the frame whose trajectory this is");
+  return program.run(argc, argv, [&] { return evaluate(comparison); });
 }

@@ -6,9 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
-#include "arguments.h"
+#include "program/program.h"
 #include "sightline/bridge/bag_estimators.h"
 
 namespace {
@@ -16,19 +19,12 @@ namespace {
 using namespace sightline;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kUsage =
-    "offline --config FILE.yaml IN.bag --out DIR [--nodes lines,rooms] [--no-wheels]\n"
-    "  --config     settings: scans, frames, noise, lines, rooms\n"
-    "  --out        folder for out.bag and one trajectory, NODE.tum, for each node with a pose\n"
-    "  --nodes      what to run; by default lines, and rooms where the settings name some\n"
-    "  --no-wheels  leave the odometry of the bag unused\n";
-
 struct Job {
   std::string config;
   std::string in;
-  std::filesystem::path out;
+  std::string out;
   std::vector<std::string> nodes;  // empty: by the settings
-  bool use_wheels = true;
+  bool no_wheels = false;
 };
 
 std::vector<std::string> splitNodes(const std::string& list) {
@@ -45,26 +41,10 @@ std::vector<std::string> splitNodes(const std::string& list) {
   return nodes;
 }
 
-std::string required(const std::optional<std::string>& value, const char* name) {
-  if (!value) throw tools::UsageError(std::string(name) + " is missing");
-  return *value;
-}
-
-Job jobOf(tools::Arguments& arguments) {
-  Job job;
-  job.config = required(arguments.text("--config"), "--config");
-  job.out = required(arguments.text("--out"), "--out");
-  if (const auto list = arguments.text("--nodes")) job.nodes = splitNodes(*list);
-  job.use_wheels = !arguments.flag("--no-wheels");
-  job.in = arguments.positional("IN.bag");
-  arguments.finish();
-  return job;
-}
-
 // Opens the bag to write, unless it is the one to read.
 void openOut(rosbag::Bag& out, const Job& job) {
   std::filesystem::create_directories(job.out);
-  const auto path = job.out / "out.bag";
+  const auto path = std::filesystem::path(job.out) / "out.bag";
   if (std::filesystem::exists(path) && std::filesystem::equivalent(path, job.in)) {
     throw config::Error(job.in, 0, "", "is where the result would go");
   }
@@ -76,7 +56,7 @@ std::vector<std::string> nodesOf(const Job& job, const pipeline::OfflineConfig& 
   if (nodes.empty()) nodes = config.rooms ? splitNodes("lines,rooms") : splitNodes("lines");
   const bool rooms = std::count(nodes.begin(), nodes.end(), "rooms") > 0;
   if (rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
-  if (rooms && !job.use_wheels) {
+  if (rooms && job.no_wheels) {
     throw tools::UsageError("--no-wheels leaves rooms without odometry");
   }
   return nodes;
@@ -90,8 +70,8 @@ Estimators makeEstimators(const std::vector<std::string>& nodes,
   for (const std::string& node : nodes) {
     if (node == "lines") estimators.push_back(std::make_unique<bridge::BagLines>(config, out));
     if (node == "rooms") {
-      estimators.push_back(
-          std::make_unique<bridge::BagRooms>(config, out, (job.out / "rooms.tum").string()));
+      estimators.push_back(std::make_unique<bridge::BagRooms>(
+          config, out, (std::filesystem::path(job.out) / "rooms.tum").string()));
     }
   }
   return estimators;
@@ -139,12 +119,11 @@ void printSummary(const Estimators& estimators, const bridge::BagScans& scans, d
               scans.duration() / seconds);
 }
 
-int runOffline(tools::Arguments& arguments) {
+int runOffline(const Job& job) {
   const auto start = Clock::now();
-  const Job job = jobOf(arguments);
   const auto config = pipeline::OfflineConfig::readFile(job.config);
   const auto nodes = nodesOf(job, config);
-  bridge::BagScans scans(job.in, config, job.use_wheels);
+  bridge::BagScans scans(job.in, config, !job.no_wheels);
   rosbag::Bag out;
   openOut(out, job);
   Estimators estimators = makeEstimators(nodes, config, job, out);
@@ -156,5 +135,20 @@ int runOffline(tools::Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sightline::tools::run(argc, argv, kUsage, runOffline);
+  Job job;
+  std::optional<std::string> nodes;
+  tools::Program program("offline", "Runs the estimators over a bag, as fast as they go.");
+  program.positional("IN.bag", job.in, "the bag to read");
+  program.requiredOption("--config", job.config, "FILE.yaml",
+                         "settings: scans, frames, noise, lines, rooms");
+  program.requiredOption("--out", job.out, "DIR",
+                         "folder for out.bag and one trajectory, NODE.tum, for each node with a "
+                         "pose");
+  program.option("--nodes", nodes, "lines,rooms",
+                 "what to run; by default lines, and rooms where the settings name some");
+  program.flag("--no-wheels", job.no_wheels, "leave the odometry of the bag unused");
+  return program.run(argc, argv, [&] {
+    if (nodes) job.nodes = splitNodes(*nodes);
+    return runOffline(job);
+  });
 }

@@ -2,20 +2,12 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "arguments.h"
+#include "program/program.h"
 #include "sightline/bridge/run_report.h"
 
 namespace {
 
 using namespace sightline;
-
-constexpr const char* kUsage =
-    "report_run RUN.bag --out DIR\n"
-    "  RUN.bag  with scan, pose, ground_truth and tracker_status\n"
-    "  --out    folder for trajectory.tum and truth.tum, both in the map\n"
-    "Ends with 0 only if every scan has a pose, and every pose is within 0.15 m and 3 degrees of "
-    "the\n"
-    "truth at its stamp.\n";
 
 void write(const logs::Trajectory& trajectory, const std::filesystem::path& path) {
   logs::TrajectoryWriter writer(path.string());
@@ -23,15 +15,11 @@ void write(const logs::Trajectory& trajectory, const std::filesystem::path& path
   writer.close();
 }
 
-int report(tools::Arguments& arguments) {
-  const auto out = arguments.text("--out");
-  if (!out) throw tools::UsageError("--out is missing");
-  const std::string bag = arguments.positional("RUN.bag");
-  arguments.finish();
+int report(const std::string& bag, const std::filesystem::path& out) {
   const bridge::RecordedRun run = bridge::readRun(bag);
-  std::filesystem::create_directories(*out);
-  write(run.poses, std::filesystem::path(*out) / "trajectory.tum");
-  write(run.truth, std::filesystem::path(*out) / "truth.tum");
+  std::filesystem::create_directories(out);
+  write(run.poses, out / "trajectory.tum");
+  write(run.truth, out / "truth.tum");
   const bridge::RunReport report = bridge::judge(run);
   const bridge::PoseBounds bounds;
   const bool is_good = report.isGood(bounds);
@@ -44,5 +32,14 @@ int report(tools::Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sightline::tools::run(argc, argv, kUsage, report);
+  std::string bag;
+  std::string out;
+  tools::Program program("report_run",
+                         "Judges a recorded run of room_tracker by the truth of sim_sensor.\n"
+                         "Ends with 0 only if every scan has a pose, and every pose is within\n"
+                         "0.15 m and 3 degrees of the truth at its stamp.");
+  program.positional("RUN.bag", bag, "with scan, pose, ground_truth and tracker_status");
+  program.requiredOption("--out", out, "DIR",
+                         "folder for trajectory.tum and truth.tum, both in the map");
+  return program.run(argc, argv, [&] { return report(bag, out); });
 }
