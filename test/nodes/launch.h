@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string>
 
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +19,7 @@ class Launch {
     const std::string command = "exec roslaunch --wait sightline " + arguments;
     process_ = fork();
     if (process_ != 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGINT);  // a test that is killed leaves no nodes behind either
     execl("/bin/bash", "bash", "-c", command.c_str(), nullptr);
     std::_Exit(127);
   }
