@@ -7,10 +7,6 @@ namespace sightline::tracking {
 
 namespace {
 
-double squared(double value) {
-  return value * value;
-}
-
 // A wall piece shifted along itself is still the wall; past this it no longer tells where it ends.
 constexpr double kMaxAlongSlack = 0.3;
 
@@ -27,9 +23,9 @@ ValidationGate::ValidationGate(const GateConfig& config, const world::Wall& wall
   start_base_ = segment_base.start;
   foot_ = -direction_.dot(start_base_);
 
-  size_.opening = std::min(config.max_opening,
-                           config.sigmas * std::sqrt(predicted_.covariance(0, 0) +
-                                                     squared(wall_sigma) + squared(point_sigma)));
+  size_.opening = std::min(
+      config.max_opening,
+      config.sigmas * std::hypot(std::sqrt(predicted_.covariance(0, 0)), wall_sigma, point_sigma));
   size_.angle =
       std::min(config.max_angle, std::atan(config.sigmas * std::sqrt(predicted_.covariance(1, 1))));
   slope_ = std::tan(size_.angle);

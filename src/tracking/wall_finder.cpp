@@ -18,8 +18,8 @@ using geometry::Pose2;
 
 constexpr int kMaxReassignments = 5;
 
-double squared(double value) {
-  return value * value;
+double varianceOf(double sigma) {
+  return sigma * sigma;
 }
 
 // The noise of a typical beam: half the trace holds for beams along the wall's normal as for those
@@ -43,7 +43,7 @@ Eigen::Matrix<double, 2, 3> motionJacobian(const std::vector<const BeamPoint*>& 
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 2, 3> moved = Eigen::Matrix<double, 2, 3>::Zero();
   for (const BeamPoint* point : points) {
-    const double weight = 1.0 / squared(pointSigma(*point, normal));
+    const double weight = 1.0 / varianceOf(pointSigma(*point, normal));
     const double position = along.dot(point->position);
     const Eigen::Vector2d residual_by_line(-1.0, position);
     const Eigen::RowVector3d residual_by_motion(normal.x(), normal.y(), -position);
@@ -112,8 +112,8 @@ PoseFilter WallFinder::refineByHough(const PoseFilter& predicted, const Walls& w
     PolarLine coarse = gated[i].gate.predicted();
     coarse.rho += peaks.walls[i]->distance;
     coarse.phi += peaks.turn;
-    coarse.covariance << squared(config_.hough.distance_bin), 0.0, 0.0,
-        squared(config_.hough.angle_bin);
+    coarse.covariance << varianceOf(config_.hough.distance_bin), 0.0, 0.0,
+        varianceOf(config_.hough.angle_bin);
     refined.update(refined.innovation(geometry::canonical(coarse), walls[i]->segment.line(),
                                       Eigen::Matrix<double, 2, 3>::Zero()));
   }
@@ -152,10 +152,10 @@ void WallFinder::addMapUncertainty(const std::vector<const BeamPoint*>& points,
   for (const BeamPoint* point : points) centroid += point->position;
   centroid /= static_cast<double>(points.size());
   const double lever = line.direction().dot(centroid);
-  const double turn = squared(config_.wall.direction_sigma);
+  const double turn = varianceOf(config_.wall.direction_sigma);
   Eigen::Matrix2d added;
-  added << squared(config_.wall.position_sigma) + lever * lever * turn, lever * turn, lever * turn,
-      turn;
+  added << varianceOf(config_.wall.position_sigma) + lever * lever * turn, lever * turn,
+      lever * turn, turn;
   line.covariance += added;
 }
 

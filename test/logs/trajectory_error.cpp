@@ -14,7 +14,7 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kSecondInNs = 1'000'000'000;
 
 // Stamps out of order, off by half a millisecond and by one; a relation of which a pose is missing,
 // one from a pose to itself, one backwards in time and one across ±π.
@@ -69,8 +69,8 @@ TEST(CompareWithRelations, TakesTheOffsetAsAPoseInTheBody) {
   Trajectory body;
   Trajectory measured;
   for (int i = 0; i < 4; ++i) {
-    body.push_back({i * kSecond, Pose2(0.5 * i, 0.1 * i * i, 0.7 * i)});
-    measured.push_back({i * kSecond, body.back().pose * T_body_measured});
+    body.push_back({i * kSecondInNs, Pose2(0.5 * i, 0.1 * i * i, 0.7 * i)});
+    measured.push_back({i * kSecondInNs, body.back().pose * T_body_measured});
   }
   std::vector<Relation> relations;
   for (std::size_t i = 1; i < 4; ++i) {
@@ -85,28 +85,30 @@ TEST(CompareWithRelations, TakesTheOffsetAsAPoseInTheBody) {
 }
 
 TEST(CompareWithRelations, SaysThatNoRelationIsUsed) {
-  const auto errors = compareWithRelations({{kSecond, {}}}, {{kSecond, kSecond, {}}}, {});
+  const auto errors =
+      compareWithRelations({{kSecondInNs, {}}}, {{kSecondInNs, kSecondInNs, {}}}, {});
   EXPECT_EQ(errors.used, 0U);
   EXPECT_EQ(figures(errors, "here."), "here.relations.used 0 of 1\n");
 }
 
 TEST(CompareWithRelations, KeepsLongRelationsOutOfTheShortOnes) {
-  const Trajectory trajectory = {{0, {}}, {6 * kSecond, {1, 0, 0}}};
-  const auto errors = compareWithRelations(trajectory, {{0, 6 * kSecond, {1, 0, 0}}});
+  const Trajectory trajectory = {{0, {}}, {6 * kSecondInNs, {1, 0, 0}}};
+  const auto errors = compareWithRelations(trajectory, {{0, 6 * kSecondInNs, {1, 0, 0}}});
   EXPECT_FALSE(errors.short_term.has_value());
   ASSERT_TRUE(errors.all.has_value());
   EXPECT_THAT(figures(errors), Not(HasSubstr("short")));
 }
 
 TEST(CompareWithTruth, InterpolatesTheTruth) {
-  const Trajectory truth = {{0, {0, 0, 0}}, {kSecond, {1, 0, 0.2}}, {3 * kSecond, {3, 0, 0.2}}};
+  const Trajectory truth = {
+      {0, {0, 0, 0}}, {kSecondInNs, {1, 0, 0.2}}, {3 * kSecondInNs, {3, 0, 0.2}}};
   // At the middle of an arc, exactly at a pose, within too wide a gap, before and after the truth.
   const Pose2 middle = geometry::interpolate(truth[0].pose, truth[1].pose, 0.5);
   const Trajectory trajectory = {{-1, {}},
-                                 {kSecond / 2, middle * Pose2(0.03, 0.04, -0.1)},
-                                 {kSecond, {1.1, 0, 0.2}},
-                                 {2 * kSecond, {9, 9, 9}},
-                                 {4 * kSecond, {}}};
+                                 {kSecondInNs / 2, middle * Pose2(0.03, 0.04, -0.1)},
+                                 {kSecondInNs, {1.1, 0, 0.2}},
+                                 {2 * kSecondInNs, {9, 9, 9}},
+                                 {4 * kSecondInNs, {}}};
   const auto errors = compareWithTruth(trajectory, truth);
   EXPECT_EQ(errors.used, 2U);
   EXPECT_EQ(errors.total, 5U);
@@ -120,13 +122,13 @@ TEST(CompareWithTruth, InterpolatesTheTruth) {
 TEST(CompareWithTruth, TakesTheOffsetAsAPoseInTheBody) {
   const Pose2 T_body_measured(0.3, 0.0, 0.1);
   const Pose2 body(2.0, 1.0, 1.5);
-  const auto errors =
-      compareWithTruth({{kSecond, body}}, {{kSecond, body * T_body_measured}}, T_body_measured);
+  const auto errors = compareWithTruth({{kSecondInNs, body}},
+                                       {{kSecondInNs, body * T_body_measured}}, T_body_measured);
   EXPECT_NEAR(errors.absolute->translation.max, 0.0, 1e-12);
 }
 
 TEST(CompareWithTruth, SaysThatNoPoseIsUsed) {
-  EXPECT_EQ(figures(compareWithTruth({{kSecond, {}}}, {{0, {}}})), "truth.used 0 of 1\n");
+  EXPECT_EQ(figures(compareWithTruth({{kSecondInNs, {}}}, {{0, {}}})), "truth.used 0 of 1\n");
 }
 
 TEST(StatisticsOf, AreThoseOfThePopulation) {

@@ -14,10 +14,10 @@ namespace {
 
 using geometry::Pose2;
 
-const char* const kRoom = "rooms: {hall: {size: [6.0, 4.0]}}";
+const char* const kHall = "rooms: {hall: {size: [6.0, 4.0]}}";
 const std::vector<WallIndex> kWalls{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
 
-TrackerConfig exactMap() {
+TrackerConfig wallsAsDrawn() {
   TrackerConfig config;
   config.wall.position_sigma = 0.0;
   config.wall.direction_sigma = 0.0;
@@ -29,8 +29,8 @@ PoseFilter filterAt(const TrackerConfig& config, const Pose2& pose) {
 }
 
 TEST(WallFinder, FindsTheWallsFromAVaguePose) {
-  const TrackerConfig config = exactMap();
-  test::SimulatedRooms rooms(kRoom);
+  const TrackerConfig config = wallsAsDrawn();
+  test::SimulatedRooms rooms(kHall);
   const Pose2 truth(0.4, -0.3, 0.6);
   const Sweep sweep = readSweep(rooms.look(truth, 1), {}, config.odometry);
   const auto walls =
@@ -49,8 +49,8 @@ TEST(WallFinder, FindsTheWallsFromAVaguePose) {
 }
 
 TEST(WallFinder, CovarianceOfItsFitsHolds) {
-  const TrackerConfig config = exactMap();
-  test::SimulatedRooms rooms(kRoom, 5);
+  const TrackerConfig config = wallsAsDrawn();
+  test::SimulatedRooms rooms(kHall, 5);
   const Pose2 truth(0.4, -0.3, 0.6);
   double sum = 0.0;
   int count = 0;
@@ -74,8 +74,8 @@ TEST(WallFinder, CovarianceOfItsFitsHolds) {
 }
 
 TEST(WallFinder, ABeamBelongsToOneWall) {
-  const TrackerConfig config = exactMap();
-  test::SimulatedRooms rooms(kRoom);
+  const TrackerConfig config = wallsAsDrawn();
+  test::SimulatedRooms rooms(kHall);
   const Pose2 truth(2.5, 1.5, 0.8);
   const Sweep sweep = readSweep(rooms.look(truth, 1), {}, config.odometry);
   std::vector<int> uses(sweep.points.size(), 0);
@@ -88,11 +88,11 @@ TEST(WallFinder, ABeamBelongsToOneWall) {
 }
 
 TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
-  const TrackerConfig config = exactMap();
+  const TrackerConfig config = wallsAsDrawn();
   simulation::ScannerProfile profile = test::SimulatedRooms::profile();
   profile.rate = 5.0;
   profile.revolution = 0.1;
-  const test::SimulatedRooms rooms(kRoom);
+  const test::SimulatedRooms rooms(kHall);
   const Pose2 truth(0.4, -0.3, 0.6);
   const scan::Scan still =
       simulation::Scanner(profile, {}, 1).sweep(rooms.world, 1, [&](std::int64_t) {
@@ -122,8 +122,8 @@ TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
 }
 
 TEST(WallFinder, NoBeamsNoWalls) {
-  const TrackerConfig config = exactMap();
-  const test::SimulatedRooms rooms(kRoom);
+  const TrackerConfig config = wallsAsDrawn();
+  const test::SimulatedRooms rooms(kHall);
   for (const auto& wall : WallFinder(config).find(filterAt(config, {}), rooms.map, kWalls, {})) {
     EXPECT_FALSE(wall.accepted);
     EXPECT_EQ(wall.beams_in_gate, 0U);
