@@ -61,6 +61,8 @@ class RoomTrackerNode {
   bool onInflate(InflateUncertainty::Request& request, InflateUncertainty::Response& response);
   void processWaiting();
   bool process(const Waiting& waiting);
+  bool odometryMayCome(const Waiting& waiting) const;
+  bool odometryBeganAfter(const std_msgs::Header& header) const;
   void track(const scan::Scan& scan, const geometry::Pose2& T_odom_base,
              const geometry::Pose2& T_base_sensor, Scanner& scanner);
   void restartAfterClockSetBack(std::int64_t stamp);
@@ -184,9 +186,27 @@ bool RoomTrackerNode::process(const Waiting& waiting) {
     scanner.monitor.drop(fault.what());
     return true;
   } catch (const tf2::TransformException& missing) {
-    if ((ros::WallTime::now() - waiting.arrival).toSec() < config_.odometry_timeout) return false;
+    if (odometryMayCome(waiting)) return false;
     scanner.monitor.drop(missing.what());
     return true;
+  }
+}
+
+bool RoomTrackerNode::odometryMayCome(const Waiting& waiting) const {
+  return (ros::WallTime::now() - waiting.arrival).toSec() < config_.odometry_timeout &&
+         !odometryBeganAfter(waiting.message->header);
+}
+
+// Such a scan would wait in vain, and hold up those behind it: in a recording played fast, until tf
+// had forgotten their odometry too. The newest is asked for first, as more may come in between.
+bool RoomTrackerNode::odometryBeganAfter(const std_msgs::Header& header) const {
+  try {
+    const auto newest =
+        transforms_.lookupTransform(config_.odom_frame, header.frame_id, ros::Time(0));
+    return newest.header.stamp > header.stamp &&
+           !transforms_.canTransform(config_.odom_frame, header.frame_id, header.stamp);
+  } catch (const tf2::TransformException&) {
+    return false;
   }
 }
 

@@ -249,6 +249,18 @@ TEST_F(RoomTrackerNode, ScanWithoutOdometryIsDroppedAfterTheTimeOut) {
   scanUntil(poses, before + 1);
 }
 
+TEST_F(RoomTrackerNode, ScanFromBeforeTheOdometryDoesNotHoldUpTheNext) {
+  Recorder<PoseMessage> poses("patient/pose");
+  ros::Publisher scans = node_.advertise<sensor_msgs::LaserScan>("patient/scan", 10);
+  waitForSubscribers(scans, 1);
+  scans.publish(look(ros::Time::now() - ros::Duration(60.0)));
+  for (int i = 0; i < 200 && poses.count() == 0; ++i) {
+    scans.publish(look(scan()));
+    ros::WallDuration(0.05).sleep();
+  }
+  EXPECT_GT(poses.count(), 0U);
+}
+
 TEST_F(RoomTrackerNode, WaitsForAPoseAndRefusesBadOnes) {
   Recorder<PoseMessage> poses("waiting/pose");
   Recorder<TrackerStatus> statuses("waiting/tracker_status");
