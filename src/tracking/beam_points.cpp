@@ -9,7 +9,11 @@ Sweep readSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
   const bool moved = !scan.sensor_motion.empty();
   const std::vector<double>& offsets = scan.geometry->timeOffsets();
   Sweep sweep;
-  if (moved) sweep.motion_covariance = motion::stepCovariance(odometry, scan.sensor_motion.back());
+  if (moved) {
+    const geometry::Pose2 motion =
+        T_base_sensor * scan.sensor_motion.back() * T_base_sensor.inverse();
+    sweep.motion_covariance = motion::stepCovariance(odometry, motion);
+  }
   sweep.points.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i)) continue;

@@ -19,30 +19,41 @@ PoseFilter::PoseFilter(const TrackerConfig& config, const geometry::UncertainPos
 }
 
 void PoseFilter::predict(const Pose2& step) {
-  beginSweep(Eigen::Matrix3d::Zero());
   if (config_.method == Method::kFull) {
     predictFull(step);
   } else {
     predictPlain(step);
   }
+  beginSweep(Eigen::Matrix3d::Zero());
 }
 
 void PoseFilter::beginSweep(const Eigen::Matrix3d& motion_covariance) {
   covariance_.rightCols<3>().setZero();
   covariance_.bottomRows<3>().setZero();
   covariance_.bottomRightCorner<3, 3>() = motion_covariance;
+  sweep_heading_variance_ = motion_covariance(2, 2);
+  motion_error_.setZero();
 }
 
 void PoseFilter::predictFull(const Pose2& step) {
   const Pose2 moved = motion::expectedStep(config_.odometry, step, scale_);
-  Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
-  F.topLeftCorner<3, 3>() = geometry::composeJacobianFirst(pose_, moved);
-  F.topRightCorner<2, 1>() = pose_.rotation() * step.translation();
   const Eigen::Matrix3d G = geometry::composeJacobianSecond(pose_);
-  covariance_.topLeftCorner<4, 4>() = F * covariance() * F.transpose();
+  const Eigen::Matrix3d noise = motion::stepCovariance(config_.odometry, moved);
+  // The step begins with the sweep of the last scan. What that scan's walls have said of the
+  // sweep's motion holds for this part of the step; only the rest brings new noise. Steps shorter
+  // than the sweep, of scanners in turn, are taken as new.
+  const double known = noise(2, 2) > 0.0 ? sweep_heading_variance_ / noise(2, 2) : 0.0;
+  const bool holds_sweep = known <= 1.0;
+  Eigen::Matrix<double, 4, 7> F = Eigen::Matrix<double, 4, 7>::Zero();
+  F.leftCols<4>().setIdentity();
+  F.topLeftCorner<3, 3>() = geometry::composeJacobianFirst(pose_, moved);
+  F.block<2, 1>(0, 3) = pose_.rotation() * moved.translation() / scale_;
+  if (holds_sweep) F.topRightCorner<3, 3>() = -G;
+  const Eigen::Matrix4d predicted = F * covariance_ * F.transpose();
+  covariance_.topLeftCorner<4, 4>() = predicted;
   covariance_.topLeftCorner<3, 3>() +=
-      G * motion::stepCovariance(config_.odometry, moved) * G.transpose();
-  pose_ = pose_ * moved;
+      (holds_sweep ? 1.0 - known : 1.0) * G * noise * G.transpose();
+  pose_ = pose_ * (holds_sweep ? Pose2(moved.coordinates() - motion_error_) : moved);
 }
 
 void PoseFilter::predictPlain(const Pose2& step) {
@@ -65,11 +76,12 @@ PoseFilter::Innovation PoseFilter::innovation(
   // Described by the opposite normal, ρ changes its sign and φ does not.
   const Eigen::Vector2d sense(measured.rho == measured_base.rho ? 1.0 : -1.0, 1.0);
   Innovation result;
-  result.value = {measured.rho - predicted.rho, geometry::wrapAngle(measured.phi - predicted.phi)};
   result.jacobian.setZero();
   result.jacobian.leftCols<3>() =
       geometry::transformJacobianPose(T_base_map, wall_map) * geometry::inverseJacobian(pose_);
   result.jacobian.rightCols<3>() = sense.asDiagonal() * motion_jacobian;
+  result.value = {measured.rho - predicted.rho, geometry::wrapAngle(measured.phi - predicted.phi)};
+  result.value -= result.jacobian.rightCols<3>() * motion_error_;
   result.covariance =
       result.jacobian * covariance_ * result.jacobian.transpose() + measured.covariance;
   result.nis = result.value.dot(result.covariance.inverse() * result.value);
@@ -82,6 +94,7 @@ void PoseFilter::update(const Innovation& innovation) {
   const Eigen::Matrix<double, 7, 1> correction = gain * innovation.value;
   pose_ = Pose2(pose_.coordinates() + correction.head<3>());
   scale_ += correction[3];
+  motion_error_ += correction.tail<3>();
   covariance_ -= gain * innovation.covariance * gain.transpose();
   covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
 }

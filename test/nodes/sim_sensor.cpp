@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <mutex>
 #include <vector>
 
 #include <geometry_msgs/Twist.h>
@@ -15,51 +14,13 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "nodes/recorder.h"
 #include "sightline/bridge/pose_conversion.h"
 
 namespace sightline {
 namespace {
 
-// Everything that comes on a topic.
-template <class Message>
-class Recorder {
- public:
-  explicit Recorder(const std::string& topic)
-      : subscriber_(ros::NodeHandle().subscribe(topic, 1000, &Recorder::onMessage, this)) {}
-
-  // The messages so far, once there are so many; fails the test if they do not come.
-  std::vector<Message> atLeast(std::size_t count) {
-    for (int i = 0; i < 6000 && ros::ok(); ++i) {
-      {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (messages_.size() >= count) return messages_;
-      }
-      ros::WallDuration(0.01).sleep();
-    }
-    ADD_FAILURE() << "no " << count << " messages on " << subscriber_.getTopic();
-    return {};
-  }
-
-  Message next() {
-    std::size_t seen = 0;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      seen = messages_.size();
-    }
-    const auto messages = atLeast(seen + 1);
-    return messages.empty() ? Message() : messages.back();
-  }
-
- private:
-  void onMessage(const typename Message::ConstPtr& message) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    messages_.push_back(*message);
-  }
-
-  std::mutex mutex_;
-  std::vector<Message> messages_;
-  ros::Subscriber subscriber_;
-};
+using test::Recorder;
 
 template <class Message>
 std::vector<double> intervals(const std::vector<Message>& messages) {

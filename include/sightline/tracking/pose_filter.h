@@ -55,6 +55,10 @@ class PoseFilter {
   TrackerConfig config_;
   geometry::Pose2 pose_;
   double scale_;
+  // m: the error of the motion over the sweep, as reported; and the variance of its heading before
+  // the scan was taken in.
+  Eigen::Vector3d motion_error_ = Eigen::Vector3d::Zero();
+  double sweep_heading_variance_ = 0.0;
   Eigen::Matrix<double, 7, 7> covariance_ = Eigen::Matrix<double, 7, 7>::Zero();
 };
 
