@@ -12,7 +12,7 @@ Path::Path(const config::Node& document) {
   turn_rate = document.numberOr("turn_rate", turn_rate, config::kPositive);
   tolerance = document.numberOr("tolerance", tolerance, config::kPositive);
   for (const config::Node& node : document.at("waypoints").items()) {
-    const auto xy = node.numbers(2);
+    const auto xy = node.numbers(2, {-1e6, 1e6});
     waypoints_map.emplace_back(xy[0], xy[1]);
   }
 }

@@ -10,15 +10,19 @@ namespace sightline::world {
 
 namespace {
 
+// As for rooms: beyond, squares overflow and distances come out as no numbers.
+constexpr config::Range kPlaces{-1e6, 1e6};
+constexpr config::Range kSizes{0.001, 1e6};
+constexpr config::Range kHeights{0.0, 1e6};
+
 Eigen::Vector2d planePoint(const config::Node& node) {
-  const auto xy = node.numbers(2);
+  const auto xy = node.numbers(2, kPlaces);
   return {xy[0], xy[1]};
 }
 
 Eigen::Vector2d planeSize(const config::Node& node) {
-  const auto items = node.items();
-  if (items.size() != 2) node.fail(fmt::format("expected 2 numbers, found {}", items.size()));
-  return {items[0].number(config::kPositive), items[1].number(config::kPositive)};
+  const auto xy = node.numbers(2, kSizes);
+  return {xy[0], xy[1]};
 }
 
 // One file of a world, read into the world that it belongs to, where it stands in it.
@@ -62,8 +66,8 @@ class WorldFile {
   }
 
   Upright uprightOf(const config::Node& node) const {
-    const double bottom = node.numberOr("bottom", 0.0, config::kNotNegative);
-    const double top = node.numberOr("top", wall_height_, config::kPositive);
+    const double bottom = node.numberOr("bottom", 0.0, kHeights);
+    const double top = node.numberOr("top", wall_height_, kHeights);
     if (!(bottom < top)) node.fail(fmt::format("bottom {} m is not below top {} m", bottom, top));
     return {bottom, top, materialOf(node)};
   }
@@ -90,13 +94,13 @@ class WorldFile {
 
   static geometry::Pose2 placeOf(const config::Node& node) {
     if (!node.has("pose")) return {};
-    const auto pose = node.at("pose").numbers(3);
+    const auto pose = node.at("pose").numbers(3, kPlaces);
     return {pose[0], pose[1], pose[2]};
   }
 
   void readWallDefaults(const config::Node& node) {
     node.allowOnly({"height", "material"});
-    wall_height_ = node.numberOr("height", wall_height_, config::kPositive);
+    wall_height_ = node.numberOr("height", wall_height_, kSizes);
     wall_material_ = materialOf(node);
   }
 
@@ -113,13 +117,13 @@ class WorldFile {
 
   void readCeiling(const config::Node& node) {
     node.allowOnly({"height", "material"});
-    world_.add(WorldPlate{{}, node.at("height").number(config::kPositive), materialOf(node)});
+    world_.add(WorldPlate{{}, node.at("height").number(kSizes), materialOf(node)});
   }
 
   void readSegment(const config::Node& node) {
     node.allowOnly({"from", "to", "bottom", "top", "material"});
     const geometry::Segment segment{planePoint(node.at("from")), planePoint(node.at("to"))};
-    if (!(segment.length() > 0.0)) node.fail("from and to are the same point");
+    if (!(segment.length() >= kSizes.min)) node.fail("from and to are the same point");
     const Upright upright = uprightOf(node);
     world_.add(WorldSegment{T_map_file_ * segment, upright.bottom, upright.top, upright.material});
   }
@@ -127,7 +131,8 @@ class WorldFile {
   void readBox(const config::Node& node) {
     node.allowOnly({"centre", "size", "yaw", "bottom", "top", "material"});
     const Eigen::Vector2d half = 0.5 * planeSize(node.at("size"));
-    const geometry::Pose2 T_file_box(planePoint(node.at("centre")), node.numberOr("yaw", 0.0));
+    const geometry::Pose2 T_file_box(planePoint(node.at("centre")),
+                                     node.numberOr("yaw", 0.0, kPlaces));
     addBox(T_map_file_ * T_file_box, half, uprightOf(node));
   }
 
@@ -150,8 +155,8 @@ class WorldFile {
     node.allowOnly({"centre", "radius", "bottom", "top", "material"});
     const Upright upright = uprightOf(node);
     const Eigen::Vector2d centre_map = T_map_file_ * planePoint(node.at("centre"));
-    world_.add(WorldDisc{centre_map, node.at("radius").number(config::kPositive), upright.bottom,
-                         upright.top, upright.material});
+    world_.add(WorldDisc{centre_map, node.at("radius").number(kSizes), upright.bottom, upright.top,
+                         upright.material});
   }
 
   World& world_;
