@@ -20,8 +20,8 @@ struct ScanOf {
   double angle_increment = geometry::radians(0.25);
   std::size_t beams = 1081;
   double sigma = 0.01;
-  double noise = 1.0;                ///< times sigma is what the ranges really err
-  Eigen::Vector3d motion{0, 0, 0};   ///< of the sensor during the whole sweep: tangent of Pose2::exp
+  double noise = 1.0;               ///< times sigma is what the ranges really err
+  Eigen::Vector3d motion{0, 0, 0};  ///< of the sensor during the whole sweep: tangent of Pose2::exp
 
   scan::Scan take(Gauss& gauss) const {
     scan::Scan scan;
@@ -32,8 +32,7 @@ struct ScanOf {
     for (std::size_t i = 0; i < beams; ++i) {
       const geometry::Pose2 moved = geometry::Pose2::exp(share(i) * motion);
       if (!motion.isZero()) scan.sensor_motion.push_back(moved);
-      scan.ranges.push_back(range(pose * moved, scan.geometry->angles()[i]) +
-                            gauss(noise * sigma));
+      scan.ranges.push_back(range(pose * moved, scan.geometry->angles()[i]) + gauss(noise * sigma));
     }
     classify(scan);
     return scan;

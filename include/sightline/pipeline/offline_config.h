@@ -37,7 +37,8 @@ struct RoomsConfig {
 /// ```yaml
 /// scans: [scan]                                # topics
 /// frames: {map: map, odom: odom, base: base_link}
-/// mountings: {laser: [0.2, 0.0, 0.0]}          # x, y, yaw of a scanner's frame on the base [m, m, rad],
+/// mountings: {laser: [0.2, 0.0, 0.0]}          # x, y, yaw of a scanner's frame on the base [m, m,
+/// rad],
 ///                                              # where the recording does not tell
 /// noise: {sigma: 0.01}                         # as scan::NoiseModel
 /// lines: {min_length: 0.5}                     # as lines::LineExtractorConfig
