@@ -11,6 +11,7 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/LaserScan.h>
 
+#include "sightline/LineSegmentArray.h"
 #include "sightline/TrackerStatus.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
@@ -45,6 +46,8 @@ void add(const rosbag::MessageInstance& message, RecordedRun& run) {
     run.truth.push_back({nanoseconds(truth->header.stamp), toPose2(truth->pose.pose)});
   } else if (const auto status = message.instantiate<TrackerStatus>()) {
     addStatus(*status, run);
+  } else if (message.getDataType() == ros::message_traits::datatype<LineSegmentArray>()) {
+    ++run.line_arrays;
   }
 }
 
@@ -92,7 +95,7 @@ RecordedRun readRun(const std::string& bag) {
     const rosbag::Bag file(bag);
     rosbag::View view(
         file, rosbag::TopicQuery({"scan", "/scan", "pose", "/pose", "ground_truth", "/ground_truth",
-                                  "tracker_status", "/tracker_status"}));
+                                  "tracker_status", "/tracker_status", "lines", "/lines"}));
     for (const rosbag::MessageInstance& message : view) add(message, run);
   } catch (const rosbag::BagException& error) {
     throw config::Error(bag, 0, "", std::string("not a readable bag: ") + error.what());
@@ -128,6 +131,7 @@ std::string describe(const RecordedRun& run, const RunReport& report) {
       "scans", run.scans.size(), "poses", run.poses.size(), "scans without a pose",
       report.scans_before, report.scans_after, report.scans_between);
   text += fmt::format("{:<24}{}\n", "poses without truth", report.poses_without_truth);
+  text += fmt::format("{:<24}{}\n", "arrays of lines", run.line_arrays);
   text += fmt::format("{:<24}{}\n", "rooms", fmt::join(run.rooms, ", "));
   if (run.walls > 0) {
     text += fmt::format("{:<24}{:.1f}\n", "beams per wall",

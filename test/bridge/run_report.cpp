@@ -10,6 +10,7 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/LaserScan.h>
 
+#include "sightline/LineSegmentArray.h"
 #include "sightline/TrackerStatus.h"
 #include "sightline/bridge/odometry_conversion.h"
 #include "sightline/bridge/pose_conversion.h"
@@ -122,11 +123,13 @@ TEST_F(RunBag, IsReadWithItsRoomsAndBeams) {
       status.walls[0].beams_accepted = 30;
       status.walls[1].beams_accepted = 99;  // not accepted
       bag.write("/tracker_status", now, status);
+      bag.write("/lines", now, at<LineSegmentArray>(second));
     }
   }
   const RecordedRun run = readRun(path());
   EXPECT_EQ(run.scans.size(), 3u);
   EXPECT_THAT(run.rooms, testing::ElementsAre("office", "corridor"));
+  EXPECT_EQ(run.line_arrays, 3u);
   EXPECT_EQ(run.walls, 3u);
   EXPECT_EQ(run.beams, 90u);
   const RunReport report = judge(run);

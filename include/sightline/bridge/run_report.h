@@ -16,12 +16,13 @@ struct RecordedRun {
   logs::Trajectory poses;           ///< T_map_base as tracked
   logs::Trajectory truth;           ///< T_map_base
   std::vector<std::string> rooms;   ///< that the robot was held to be in, in order
+  std::size_t line_arrays = 0;      ///< messages of line_extractor
   std::size_t walls = 0;            ///< that updated the pose, over all scans
   std::size_t beams = 0;            ///< that these walls were fitted to
 };
 
-/// Reads the topics scan, pose, ground_truth and tracker_status. Throws config::Error where the
-/// file is no bag or misses one of the first three.
+/// Reads the topics scan, pose, ground_truth, tracker_status and lines. Throws config::Error where
+/// the file is no bag or misses one of the first three.
 RecordedRun readRun(const std::string& bag);
 
 /// How far off a pose may be.
