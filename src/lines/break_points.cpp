@@ -13,21 +13,11 @@ namespace {
 constexpr std::size_t kReach = 24;
 constexpr std::size_t kKeep = 3;
 // A line of its own has a distance, a direction and a break.
-constexpr std::size_t kLineFreedom = 3;
+constexpr double kLineFreedom = 3.0;
 
 // Squared normalised residuals, bounded by the gate: a stray return costs the same wherever it is.
-struct Costs {
-  double value[kLanes];
-};
-
-Costs costsOf(const BeamArray& beams, std::size_t first, const LineEstimate& line, double bound) {
-  const BeamResiduals residuals = residualsOf(beams, first, line);
-  Costs costs;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const double e = residuals.distance[i];
-    costs.value[i] = std::min(e * e * residuals.weight[i], bound);
-  }
-  return costs;
+Packet costsOf(const BeamArray& beams, std::size_t first, const LineEstimate& line, float bound) {
+  return smaller(residualsOf(beams, first, line).squared(), all(bound));
 }
 
 }  // namespace
@@ -35,22 +25,17 @@ Costs costsOf(const BeamArray& beams, std::size_t first, const LineEstimate& lin
 BreakPoints::BreakPoints(const BeamArray& beams, const LineExtractorConfig& config)
     : beams_(beams),
       gap_(config),
-      gate_squared_(config.gate * config.gate),
+      gate_squared_(static_cast<float>(config.gate * config.gate)),
       fragment_limit_(chiSquareLimit(config.gate, kLineFreedom)) {}
 
 bool BreakPoints::isOn(const LineEstimate& line, std::size_t i) const {
-  const BeamResiduals residuals = residualsOf(beams_, i, line);
-  return residuals.distance[0] * residuals.distance[0] * residuals.weight[0] <= gate_squared_;
-}
-
-double BreakPoints::positionOn(const LineEstimate& line, std::size_t i) const {
-  return residualsOf(beams_, i, line).position[0];
+  return isWithin(beams_, i, line, gate_squared_);
 }
 
 void BreakPoints::extendForward(Piece& piece, std::size_t limit) const {
-  double position = positionOn(piece.line, piece.end - 1);
+  double position = positionOn(beams_, piece.end - 1, piece.line);
   for (std::size_t i = piece.end; i < limit; ++i) {
-    const double length = positionOn(piece.line, i) - position;
+    const double length = positionOn(beams_, i, piece.line) - position;
     if (!gap_.mayBridge(beams_, piece.end - 1, i, length)) return;
     const bool adjoins = i == piece.end;
     if (!isOn(piece.line, i)) continue;
@@ -61,9 +46,9 @@ void BreakPoints::extendForward(Piece& piece, std::size_t limit) const {
 }
 
 void BreakPoints::extendBackward(Piece& piece, std::size_t limit) const {
-  double position = positionOn(piece.line, piece.first);
+  double position = positionOn(beams_, piece.first, piece.line);
   for (std::size_t i = piece.first; i-- > limit;) {
-    const double length = positionOn(piece.line, i) - position;
+    const double length = positionOn(beams_, i, piece.line) - position;
     if (!gap_.mayBridge(beams_, i, piece.first, length)) return;
     const bool adjoins = i + 1 == piece.first;
     if (!isOn(piece.line, i)) continue;
@@ -97,11 +82,11 @@ BreakPoints::Break BreakPoints::bestBreak(const LineEstimate& before, const Line
   double least = 0.0;
   Break best{low, 0.0};
   for (std::size_t first = low; first < high; first += kLanes) {
-    const Costs as_before = costsOf(beams_, first, before, gate_squared_);
-    const Costs as_after = costsOf(beams_, first, after, gate_squared_);
+    const Packet as_before = costsOf(beams_, first, before, gate_squared_);
+    const Packet as_after = costsOf(beams_, first, after, gate_squared_);
     for (std::size_t i = 0; i < kLanes && first + i < high; ++i) {
-      best.cost += as_after.value[i];
-      difference += as_before.value[i] - as_after.value[i];
+      best.cost += static_cast<double>(as_after[i]);
+      difference += static_cast<double>(as_before[i] - as_after[i]);
       if (difference < least) {
         least = difference;
         best.at = first + i + 1;
@@ -112,33 +97,39 @@ BreakPoints::Break BreakPoints::bestBreak(const LineEstimate& before, const Line
   return best;
 }
 
-double BreakPoints::costOf(const LineEstimate& line, std::size_t first, std::size_t end) const {
-  double cost = 0.0;
-  for (std::size_t i = first; i < end; i += kLanes) {
-    const Costs costs = costsOf(beams_, i, line, gate_squared_);
-    for (std::size_t k = 0; k < kLanes && i + k < end; ++k) cost += costs.value[k];
-  }
-  return cost;
-}
-
 bool BreakPoints::adjoin(const Piece& before, const Piece& after, const LineEstimate& line) const {
   const std::size_t from = before.end - 1;
   return gap_.mayBridge(beams_, from, after.first,
-                        positionOn(line, after.first) - positionOn(line, from));
+                        positionOn(beams_, after.first, line) - positionOn(beams_, from, line));
+}
+
+// Whether each return, by itself, is close enough to one line or the other. Mostly the first few
+// tell.
+bool BreakPoints::mayExplain(const LineEstimate& before, const LineEstimate& after,
+                             const Piece& piece, double limit) const {
+  double cost = 0.0;
+  for (std::size_t i = piece.first; i < piece.end; i += kLanes) {
+    const Packet closer = smaller(costsOf(beams_, i, before, gate_squared_),
+                                  costsOf(beams_, i, after, gate_squared_));
+    cost += sum(firstLanes(piece.end - i) * closer);
+    if (cost > limit) return false;
+  }
+  return true;
 }
 
 bool BreakPoints::shareOut(const Piece& piece, Piece* before, Piece* after) const {
   if (before && !adjoin(*before, piece, before->line)) before = nullptr;
   if (after && !adjoin(piece, *after, after->line)) after = nullptr;
   if (!before && !after) return false;
-  Break split{before ? piece.end : piece.first, 0.0};
-  if (before && after) {
-    split = bestBreak(before->line, after->line, piece.first, piece.end);
-  } else {
-    split.cost = costOf(before ? before->line : after->line, piece.first, piece.end);
-  }
-  const auto stray = static_cast<double>(piece.end - piece.first - piece.beams);
-  if (split.cost > piece.chi_square + stray * gate_squared_ + fragment_limit_) return false;
+  const double stray = static_cast<double>(piece.size()) - piece.beams;
+  const double limit =
+      piece.chi_square + stray * static_cast<double>(gate_squared_) + fragment_limit_;
+  const LineEstimate& first_line = before ? before->line : after->line;
+  const LineEstimate& second_line = after ? after->line : before->line;
+  if (!mayExplain(first_line, second_line, piece, limit)) return false;
+  Break split = bestBreak(first_line, second_line, piece.first, piece.end);
+  if (split.cost > limit) return false;
+  if (!after) split.at = piece.end;
   if (before && split.at > piece.first) {
     before->end = split.at;
     trim(*before);

@@ -68,12 +68,14 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
 
   const BeamResiduals of_last = residualsOf(beams_, last, a);
   const BeamResiduals of_next = residualsOf(beams_, next, b);
-  const double noise = std::max(1.0 / of_last.weight[0], 1.0 / of_next.weight[0]);
+  const auto last_on_a = static_cast<double>(of_last.position[0]);
+  const auto next_on_b = static_cast<double>(of_next.position[0]);
+  const double noise = 1.0 / static_cast<double>(std::min(of_last.weight[0], of_next.weight[0]));
   const double slack = kTolerance * (std::sqrt(noise + va + vb)) / std::abs(sine);
-  const double reach_a = std::abs(residualsOf(beams_, next, a).position[0] - of_last.position[0]);
-  const double reach_b = std::abs(residualsOf(beams_, last, b).position[0] - of_next.position[0]);
-  return std::abs(on_a - of_last.position[0]) < slack + reach_a &&
-         std::abs(on_b - of_next.position[0]) < slack + reach_b;
+  const double reach_a = std::abs(positionOn(beams_, next, a) - last_on_a);
+  const double reach_b = std::abs(positionOn(beams_, last, b) - next_on_b);
+  return std::abs(on_a - last_on_a) < slack + reach_a &&
+         std::abs(on_b - next_on_b) < slack + reach_b;
 }
 
 EndPoint EndPoints::edge(const Piece& piece, std::size_t last, Side side) const {
@@ -101,7 +103,7 @@ EndPoints::Meeting EndPoints::meet(const LineEstimate& line, std::size_t beam) c
   const Eigen::Vector2d normal(line.normal_x, line.normal_y);
   const Eigen::Vector2d along(line.alongX(), line.alongY());
   const double facing = normal.dot(direction);
-  if (facing < kMinIncidence) return {0.0, 0.0, 0.0, false};
+  if (facing < static_cast<double>(kMinIncidence)) return {0.0, 0.0, 0.0, false};
   const double range = (line.rho - normal.dot(origin)) / facing;
   const double position = along.dot(origin + range * direction);
   const double slope = along.dot(direction) / facing;

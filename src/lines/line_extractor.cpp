@@ -15,8 +15,10 @@ namespace {
 
 Piece shifted(const Piece& piece, std::size_t round) {
   Piece result = piece;
-  result.first += round;
-  result.end += round;
+  for (std::size_t* index :
+       {&result.first, &result.end, &result.refined_first, &result.refined_end}) {
+    *index += round;
+  }
   return result;
 }
 
@@ -30,7 +32,6 @@ const std::vector<geometry::LineSegment>& LineExtractor::extract(const scan::Sca
   pieces_.clear();
   segments_.clear();
   findPieces(scan);
-  refinePieces();
   dropFragments();
   placeBreaks();
   refinePieces();
@@ -54,14 +55,12 @@ std::size_t LineExtractor::findPiecesIn(std::size_t first, std::size_t end, std:
   LineFilter filter(beams_, config_);
   std::size_t next = first;
   while (next < end && pieces_.size() < most) {
-    const std::size_t started = filter.start(next, end);
-    if (started == next) {
+    if (!filter.start(next, end)) {
       ++next;
       continue;
     }
-    const std::size_t stop = filter.follow(next, started, end);
-    pieces_.push_back({next, stop, filter.estimate(), 0, 0.0});
-    next = stop;
+    pieces_.push_back(filter.follow(end));
+    next = pieces_.back().end;
   }
   return next;
 }
@@ -122,8 +121,8 @@ void LineExtractor::mergePieces() {
 }
 
 bool LineExtractor::isWall(const Piece& piece) const {
-  if (piece.beams < static_cast<std::size_t>(config_.min_beams)) return false;
-  const double limit = chiSquareLimit(config_.gate, piece.beams - 2);
+  if (piece.beams < config_.min_beams) return false;
+  const double limit = chiSquareLimit(config_.gate, piece.beams - 2.0);
   return piece.chi_square <= limit * config_.misfit * config_.misfit;
 }
 
@@ -153,9 +152,9 @@ void LineExtractor::report(const scan::Scan& scan) {
     segment.end_kind = end.kind;
     segment.first_beam = beamAt(piece.first);
     segment.last_beam = beamAt(piece.end - 1);
-    segment.beams = piece.beams;
+    segment.beams = static_cast<std::size_t>(piece.beams);
     segment.chi_square = piece.chi_square;
-    segment.degrees_of_freedom = piece.beams - 2;
+    segment.degrees_of_freedom = segment.beams - 2;
     segments_.push_back(segment);
   }
 }

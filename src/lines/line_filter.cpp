@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sightline/lines/chi_square.h"
-#include "sightline/lines/piece.h"
+#include "sightline/lines/normal_equations.h"
 
 namespace sightline::lines {
 
@@ -14,8 +14,43 @@ constexpr std::size_t kFewestToStart = 5;
 constexpr std::size_t kMostToStart = 64;
 // Standard deviation of the direction up to which an update is linear [rad].
 constexpr double kGrownUp = 0.02;
+constexpr double kEverything = 1e12;
+// Observations validated against one prediction: never so many that the line would be predicted far
+// beyond what it is known from.
+constexpr double kStrideShare = 0.5;
+constexpr std::size_t kLongestStride = 32;
 // Times the gate, squared, in which a young line keeps its observations.
 constexpr double kLenience = 4.0;
+
+// The validation gate of one prediction.
+class Gate {
+ public:
+  Gate(const LineEstimate& line, double gate_squared)
+      : gate_squared_(static_cast<float>(gate_squared)) {
+    // About the middle of the line, where rounding does least harm.
+    const Information& info = line.information;
+    const double middle = -info.rho_phi / info.rho_rho;
+    const double scale = gate_squared / info.determinant();
+    middle_ = static_cast<float>(middle);
+    rho_rho_ = static_cast<float>(scale * info.shifted(middle).phi_phi);
+    phi_phi_ = static_cast<float>(scale * info.rho_rho);
+  }
+
+  // How far the squared innovation is beyond the gate (eq. 33), with the innovation covariance of
+  // eq. 29.
+  Packet excess(const BeamResiduals& residuals) const {
+    const Packet a = residuals.position - middle_;
+    const Packet predicted = rho_rho_ + a * a * phi_phi_;
+    return residuals.weight * (residuals.distance * residuals.distance - predicted) - gate_squared_;
+  }
+
+ private:
+  float gate_squared_;
+  float middle_;   // of what the line is known from, along it: there distance and direction are
+                   // independent
+  float rho_rho_;  // variance of the distance there, times the gate
+  float phi_phi_;
+};
 
 }  // namespace
 
@@ -55,27 +90,28 @@ struct LineFilter::Moments {
 LineFilter::LineFilter(const BeamArray& beams, const LineExtractorConfig& config)
     : beams_(beams), config_(config), gap_(config), gate_squared_(config.gate * config.gate) {}
 
-std::size_t LineFilter::start(std::size_t first, std::size_t end) {
+bool LineFilter::start(std::size_t first, std::size_t end) {
   const double wanted = config_.start_phi_sigma * config_.start_phi_sigma;
   const std::size_t last = std::min(end, first + kMostToStart);
-  const double axis_x = beams_.direction_x[first];
-  const double axis_y = beams_.direction_y[first];
+  const auto axis_x = static_cast<double>(beams_.direction_x[first]);
+  const auto axis_y = static_cast<double>(beams_.direction_y[first]);
   Moments moments;
   for (std::size_t i = first; i < last; ++i) {
-    if (i > first && !gap_.isSmall(beams_, i - 1, i)) return first;
-    moments.add(1.0 / beams_.range_variance[i], beams_.x[i] - beams_.x[first],
-                beams_.y[i] - beams_.y[first]);
+    if (i > first && !gap_.isSmall(beams_, i - 1, i)) return false;
+    moments.add(1.0 / static_cast<double>(beams_.range_variance[i]),
+                static_cast<double>(beams_.x[i] - beams_.x[first]),
+                static_cast<double>(beams_.y[i] - beams_.y[first]));
     const std::size_t count = i + 1 - first;
     if (count < kFewestToStart) continue;
     if (moments.turned(axis_x, axis_y).relativeVariance() > wanted) continue;
-    return fitStart(moments, first, count) ? i + 1 : first;
+    return fitStart(moments, first, count);
   }
-  return first;
+  return false;
 }
 
 bool LineFilter::fitStart(const Moments& moments, std::size_t first, std::size_t count) {
-  const double centre_x = beams_.x[first] + moments.x / moments.w;
-  const double centre_y = beams_.y[first] + moments.y / moments.w;
+  const double centre_x = static_cast<double>(beams_.x[first]) + moments.x / moments.w;
+  const double centre_y = static_cast<double>(beams_.y[first]) + moments.y / moments.w;
   const double distance = std::hypot(centre_x, centre_y);
   const double axis_x = centre_x / distance;
   const double axis_y = centre_y / distance;
@@ -89,108 +125,148 @@ bool LineFilter::fitStart(const Moments& moments, std::size_t first, std::size_t
   line.normal_x = c * axis_x + s * axis_y;
   line.normal_y = c * axis_y - s * axis_x;
   line.rho = line.normal_x * centre_x + line.normal_y * centre_y;
-  const NormalEquations equations = linearise(beams_, first, first + count, line, 1e12);
-  if (equations.beams < count || !equations.information.isDetermined()) return false;
+  const NormalEquations equations = linearise(beams_, first, first + count, line, kEverything);
+  if (equations.beams < static_cast<double>(count) || !equations.information.isDetermined())
+    return false;
   const double fallen = stepTo(equations, line);
-  const double limit = chiSquareLimit(config_.gate, count - 2) * config_.misfit * config_.misfit;
+  const double limit = chiSquareLimit(config_.gate, static_cast<double>(count) - 2.0) *
+                       config_.misfit * config_.misfit;
   if (!(equations.chi_square - fallen <= limit)) return false;
-  estimate_ = line;
+  piece_.line = line;
+  piece_.first = first;
+  piece_.end = first + count;
+  piece_.beams = equations.beams;
+  piece_.chi_square = equations.chi_square - fallen;
   return true;
 }
 
-std::size_t LineFilter::follow(std::size_t first, std::size_t next, std::size_t end) {
-  std::size_t last = next - 1;
-  last_position_ = residualsOf(beams_, last, estimate_).position[0];
+const Piece& LineFilter::follow(std::size_t end) {
+  careful_until_ = 0;
+  std::size_t next = piece_.end;
   while (next < end) {
-    const std::size_t lanes = std::min(kLanes, end - next);
-    const BeamResiduals residuals = residualsOf(beams_, next, estimate_);
-    const std::size_t count = countValidated(residuals, last, next, lanes);
-    if (count > 0) {
-      update(residuals, count);
-      next += count;
-      if (isYoung()) relinearise(first, next);
-      last = next - 1;
-      last_position_ = residuals.position[count - 1];
+    std::size_t taken = takeStride(next, end);
+    if (taken == 0) taken = takeSome(next, end);
+    if (taken > 0) {
+      next += taken;
+      piece_.end = next;
+      if (isYoung()) relinearise();
       continue;
     }
-    const std::size_t ahead = lookAhead(residuals, last, next, lanes);
+    const std::size_t ahead = lookAhead(next, end);
     if (ahead == 0) break;
     next += ahead;
   }
-  return last + 1;
+  return piece_;
 }
 
-std::size_t LineFilter::countValidated(const BeamResiduals& residuals, std::size_t last,
-                                       std::size_t next, std::size_t lanes) const {
-  const std::array<bool, kLanes> valid = validate(residuals);
-  std::size_t count = 0;
-  while (count < lanes && valid[count]) ++count;
-  // Hardly ever is a beam missing between the first and the last of them.
-  if (count > 0 && beams_.beam[next + count - 1] - beams_.beam[last] == next + count - 1 - last) {
-    return count;
+// Many at once, as long as all goes well.
+std::size_t LineFilter::takeStride(std::size_t next, std::size_t end) {
+  const std::size_t stride = strideLength();
+  const std::size_t stop = next + stride;
+  if (stride <= kBlock || stop > end || next < careful_until_) return 0;
+  if (isYoung() || !isUnbroken(piece_.end - 1, stop - 1)) return 0;
+  const Gate gate(piece_.line, gate_squared_);
+  NormalSums sums(positionOn(beams_, next, piece_.line));
+  Packet excess = all(0.0F);
+  for (std::size_t i = next; i < stop; i += kLanes) {
+    const BeamResiduals residuals = residualsOf(beams_, i, piece_.line);
+    excess = larger(excess, gate.excess(residuals));
+    sums.add(residuals, residuals.squared(), all(1.0F));
   }
-  double position = last_position_;
+  if (sum(excess) > 0.0) {
+    careful_until_ = stop;
+    return 0;
+  }
+  update(sums.total());
+  return stride;
+}
+
+std::size_t LineFilter::strideLength() const {
+  const auto length = static_cast<std::size_t>(kStrideShare * piece_.beams);
+  return std::min(length / kBlock * kBlock, kLongestStride);
+}
+
+std::size_t LineFilter::takeSome(std::size_t next, std::size_t end) {
+  const Validation validation = validate(next);
+  const std::size_t block = std::min(kBlock, end - next);
+  std::size_t count = 0;
+  while (count < block && validation.excess[count] <= 0.0F) ++count;
+  if (count > 0 && !isUnbroken(piece_.end - 1, next + count - 1)) {
+    count = countBridged(validation, next, count);
+  }
+  if (count == 0) return 0;
+  NormalSums sums(static_cast<double>(validation.position[0]));
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const BeamResiduals& residuals = validation.residuals[i / kLanes];
+    sums.add(residuals, residuals.squared(), firstLanes(count - i));
+  }
+  update(sums.total());
+  return count;
+}
+
+LineFilter::Validation LineFilter::validate(std::size_t first) const {
+  const Gate gate(piece_.line, gate_squared_);
+  Validation validation;
+  for (std::size_t i = 0; i < kBlock; i += kLanes) {
+    BeamResiduals& residuals = validation.residuals[i / kLanes];
+    residuals = residualsOf(beams_, first + i, piece_.line);
+    store(validation.excess + i, gate.excess(residuals));
+    store(validation.position + i, residuals.position);
+  }
+  return validation;
+}
+
+bool LineFilter::isUnbroken(std::size_t from, std::size_t to) const {
+  return beams_.beam[to] - beams_.beam[from] == to - from;
+}
+
+std::size_t LineFilter::countBridged(const Validation& validation, std::size_t next,
+                                     std::size_t count) const {
+  std::size_t from = piece_.end - 1;
+  double position = positionOn(beams_, from, piece_.line);
   for (std::size_t i = 0; i < count; ++i) {
-    const double length = residuals.position[i] - position;
-    if (!gap_.mayBridge(beams_, i == 0 ? last : next + i - 1, next + i, length)) return i;
-    position = residuals.position[i];
+    const double length = static_cast<double>(validation.position[i]) - position;
+    if (!gap_.mayBridge(beams_, from, next + i, length)) return i;
+    from = next + i;
+    position = static_cast<double>(validation.position[i]);
   }
   return count;
 }
 
-// Eq. 33 with the innovation covariance of eq. 29, for every lane.
-std::array<bool, kLanes> LineFilter::validate(const BeamResiduals& residuals) const {
-  const Information& info = estimate_.information;
-  const double scale = 1.0 / info.determinant();
-  std::array<bool, kLanes> valid;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const double e = residuals.distance[i];
-    const double a = residuals.position[i];
-    const double w = residuals.weight[i];
-    const double predicted = scale * (info.phi_phi + a * (2.0 * info.rho_phi + a * info.rho_rho));
-    valid[i] = e * e * w <= gate_squared_ * (1.0 + w * predicted);
-  }
-  return valid;
-}
-
-void LineFilter::update(const BeamResiduals& residuals, std::size_t count) {
-  NormalEquations equations;
-  equations.information = estimate_.information;
-  Information& info = equations.information;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double w = residuals.weight[i];
-    const double wa = w * residuals.position[i];
-    info.rho_rho += w;
-    info.rho_phi -= wa;
-    info.phi_phi += wa * residuals.position[i];
-    equations.gradient_rho -= w * residuals.distance[i];
-    equations.gradient_phi += wa * residuals.distance[i];
-  }
-  stepTo(equations, estimate_);
+void LineFilter::update(NormalEquations fresh) {
+  fresh.information += piece_.line.information;
+  const double fallen = stepTo(fresh, piece_.line);
+  piece_.beams += fresh.beams;
+  piece_.chi_square += fresh.chi_square - fallen;
 }
 
 bool LineFilter::isYoung() const {
-  const Information& info = estimate_.information;
+  const Information& info = piece_.line.information;
   return info.rho_rho > kGrownUp * kGrownUp * info.determinant();
 }
 
 // Far from the estimate the linearisation does not hold: as long as the direction is so uncertain,
 // the update is iterated over all observations so far.
-void LineFilter::relinearise(std::size_t first, std::size_t end) {
+void LineFilter::relinearise() {
   const NormalEquations equations =
-      linearise(beams_, first, end, estimate_, kLenience * gate_squared_);
-  if (equations.information.isDetermined()) stepTo(equations, estimate_);
+      linearise(beams_, piece_.first, piece_.end, piece_.line, kLenience * gate_squared_);
+  if (!equations.information.isDetermined()) return;
+  const double fallen = stepTo(equations, piece_.line);
+  piece_.beams = equations.beams;
+  piece_.chi_square = equations.chi_square - fallen;
 }
 
 // Two validated returns in a row, not too far on, take the line up again. Returns how many to skip;
 // 0 where it ends.
-std::size_t LineFilter::lookAhead(const BeamResiduals& residuals, std::size_t last,
-                                  std::size_t next, std::size_t lanes) const {
-  const std::array<bool, kLanes> valid = validate(residuals);
-  for (std::size_t i = 1; i + 1 < lanes; ++i) {
-    const double length = residuals.position[i] - last_position_;
-    if (!gap_.mayBridge(beams_, last, next + i, length)) return 0;
-    if (valid[i] && valid[i + 1]) return i;
+std::size_t LineFilter::lookAhead(std::size_t next, std::size_t end) const {
+  const std::size_t last = piece_.end - 1;
+  const double position = positionOn(beams_, last, piece_.line);
+  const Validation validation = validate(next);
+  for (std::size_t i = 1; i + 1 < std::min(kBlock, end - next); ++i) {
+    if (!gap_.mayBridge(beams_, last, next + i,
+                        static_cast<double>(validation.position[i]) - position))
+      return 0;
+    if (validation.excess[i] <= 0.0F && validation.excess[i + 1] <= 0.0F) return i;
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 
 #include "sightline/lines/beam_residuals.h"
 #include "sightline/lines/chi_square.h"
+#include "sightline/lines/normal_equations.h"
 
 namespace sightline::lines {
 
@@ -12,16 +13,6 @@ namespace {
 // χ² with two degrees of freedom, at the odds of a standard normal beyond ±sigmas.
 double twoDofLimit(double sigmas) {
   return -2.0 * std::log(std::erfc(sigmas / std::sqrt(2.0)));
-}
-
-NormalEquations sum(const NormalEquations& a, const NormalEquations& b) {
-  NormalEquations result = a;
-  result.information.rho_rho += b.information.rho_rho;
-  result.information.rho_phi += b.information.rho_phi;
-  result.information.phi_phi += b.information.phi_phi;
-  result.gradient_rho += b.gradient_rho;
-  result.gradient_phi += b.gradient_phi;
-  return result;
 }
 
 }  // namespace
@@ -53,22 +44,23 @@ Merging::Merging(const BeamArray& beams, const LineExtractorConfig& config)
 bool Merging::merge(Piece& before, const Piece& after) const {
   const LineEstimate& line = before.line;
   if (line.normal_x * after.line.normal_x + line.normal_y * after.line.normal_y < 0.5) return false;
-  const double position = residualsOf(beams_, before.end - 1, line).position[0];
-  const double next_position = residualsOf(beams_, after.first, line).position[0];
+  const double position = positionOn(beams_, before.end - 1, line);
+  const double next_position = positionOn(beams_, after.first, line);
   if (!gap_.mayBridge(beams_, before.end - 1, after.first, next_position - position)) return false;
   if (mahalanobisSquared(line, after.line, 0.5 * (position + next_position)) > distance_limit_) {
     return false;
   }
   Piece joined = before;
   joined.end = after.end;
+  joined.beams = 0.0;  // to be refined in full
   if (after.beams > before.beams) joined.line = after.line;
   constexpr double kEverything = 1e12;
-  const NormalEquations both =
-      sum(linearise(beams_, before.first, before.end, joined.line, kEverything),
-          linearise(beams_, after.first, after.end, joined.line, kEverything));
+  NormalEquations both = linearise(beams_, before.first, before.end, joined.line, kEverything);
+  both += linearise(beams_, after.first, after.end, joined.line, kEverything);
   stepTo(both, joined.line);
   if (!refine(beams_, gate_ * gate_, joined)) return false;
-  if (joined.chi_square > chiSquareLimit(gate_, joined.beams - 2) * misfit_ * misfit_) return false;
+  if (joined.chi_square > chiSquareLimit(gate_, joined.beams - 2.0) * misfit_ * misfit_)
+    return false;
   before = joined;
   return true;
 }

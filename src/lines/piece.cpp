@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sightline/lines/beam_residuals.h"
+#include "sightline/lines/normal_equations.h"
 
 namespace sightline::lines {
 
@@ -10,78 +10,60 @@ namespace {
 
 constexpr int kMaxSteps = 10;
 // A step this far below the standard deviations [σ²] leaves an error of second order in it.
-constexpr double kSmallStep = 1e-2;
+constexpr double kSmallStep = 0.1;
+// Share of its returns that may come or go for the linearisation of a piece to hold.
+constexpr double kFewReturns = 0.2;
 
-struct LaneSums {
-  double w[kLanes] = {};
-  double wa[kLanes] = {};
-  double waa[kLanes] = {};
-  double we[kLanes] = {};
-  double wae[kLanes] = {};
-  double wee[kLanes] = {};
-  double count[kLanes] = {};
+// A step to the maximum of likelihood; how far it was, negative where there is none.
+double take(const NormalEquations& equations, Piece& piece) {
+  if (equations.beams < 3.0 || !equations.information.isDetermined()) return -1.0;
+  const double fallen = stepTo(equations, piece.line);
+  piece.beams = equations.beams;
+  piece.chi_square = std::max(0.0, equations.chi_square - fallen);
+  piece.refined_first = piece.first;
+  piece.refined_end = piece.end;
+  return fallen;
+}
 
-  void add(const BeamResiduals& residuals, double gate_squared, std::size_t lanes) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const double e = residuals.distance[i];
-      const double a = residuals.position[i];
-      const double squared = e * e * residuals.weight[i];
-      const double inside = (squared <= gate_squared) & (i < lanes) ? 1.0 : 0.0;
-      const double weight = inside * residuals.weight[i];
-      w[i] += weight;
-      wa[i] += weight * a;
-      waa[i] += weight * a * a;
-      we[i] += weight * e;
-      wae[i] += weight * a * e;
-      wee[i] += inside * squared;
-      count[i] += inside;
-    }
-  }
-};
+std::size_t distance(std::size_t a, std::size_t b) {
+  return a > b ? a - b : b - a;
+}
 
-double total(const double (&lanes)[kLanes]) {
-  double sum = 0.0;
-  for (const double lane : lanes) sum += lane;
-  return sum;
+bool hasChangedLittle(const Piece& piece) {
+  const std::size_t changed =
+      distance(piece.first, piece.refined_first) + distance(piece.end, piece.refined_end);
+  return static_cast<double>(changed) <= kFewReturns * piece.beams;
+}
+
+// At the maximum of likelihood the gradient is zero: what is left is that of the returns that came
+// or went.
+NormalEquations changed(const BeamArray& beams, double gate_squared, const Piece& piece) {
+  const auto between = [&](std::size_t first, std::size_t end) {
+    return linearise(beams, first, end, piece.line, gate_squared);
+  };
+  NormalEquations equations;
+  equations.information = piece.line.information;
+  equations.chi_square = piece.chi_square;
+  equations.beams = piece.beams;
+  equations += between(piece.first, piece.refined_first);
+  equations -= between(piece.refined_first, piece.first);
+  equations += between(piece.refined_end, piece.end);
+  equations -= between(piece.end, piece.refined_end);
+  return equations;
 }
 
 }  // namespace
 
-NormalEquations linearise(const BeamArray& beams, std::size_t first, std::size_t end,
-                          const LineEstimate& line, double gate_squared) {
-  LaneSums sums;
-  for (std::size_t i = first; i < end; i += kLanes) {
-    sums.add(residualsOf(beams, i, line), gate_squared, end - i);
-  }
-  NormalEquations equations;
-  equations.information = {total(sums.w), -total(sums.wa), total(sums.waa)};
-  equations.gradient_rho = -total(sums.we);
-  equations.gradient_phi = total(sums.wae);
-  equations.chi_square = total(sums.wee);
-  equations.beams = static_cast<std::size_t>(total(sums.count));
-  return equations;
-}
-
-double stepTo(const NormalEquations& equations, LineEstimate& line) {
-  const Information& info = equations.information;
-  const double scale = -1.0 / info.determinant();
-  const double rho_step =
-      scale * (info.phi_phi * equations.gradient_rho - info.rho_phi * equations.gradient_phi);
-  const double phi_step =
-      scale * (info.rho_rho * equations.gradient_phi - info.rho_phi * equations.gradient_rho);
-  line.information = info;
-  line.step(rho_step, phi_step);
-  return -(rho_step * equations.gradient_rho + phi_step * equations.gradient_phi);
-}
-
 bool refine(const BeamArray& beams, double gate_squared, Piece& piece) {
+  if (piece.first == piece.refined_first && piece.end == piece.refined_end) return true;
+  if (hasChangedLittle(piece)) {
+    const double fallen = take(changed(beams, gate_squared, piece), piece);
+    if (fallen >= 0.0 && fallen < kSmallStep) return true;
+  }
   for (int i = 0; i < kMaxSteps; ++i) {
-    const NormalEquations equations =
-        linearise(beams, piece.first, piece.end, piece.line, gate_squared);
-    if (equations.beams < 3 || !equations.information.isDetermined()) return false;
-    const double fallen = stepTo(equations, piece.line);
-    piece.beams = equations.beams;
-    piece.chi_square = std::max(0.0, equations.chi_square - fallen);
+    const double fallen =
+        take(linearise(beams, piece.first, piece.end, piece.line, gate_squared), piece);
+    if (fallen < 0.0) return false;
     if (fallen < kSmallStep) break;
   }
   return true;

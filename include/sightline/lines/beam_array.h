@@ -8,16 +8,16 @@
 
 namespace sightline::lines {
 
-/// How many beams are computed side by side: a multiple of every vector width in use.
-constexpr std::size_t kLanes = 8;
+/// How far past its end an array of beams may be read.
+constexpr std::size_t kPadding = 8;
 
 /// The valid returns of a scan in the order of the sweep, one array a quantity, in the frame of the
 /// scan at its stamp: what the motion of the sensor did to them has been taken out.
 struct BeamArray {
-  std::vector<double> x, y;                      ///< where the beam ended [m]
-  std::vector<double> direction_x, direction_y;  ///< unit vector along the beam
-  std::vector<double> range_variance;            ///< along the beam [m²]
-  std::vector<double> across_variance;           ///< across the beam [m²]
+  std::vector<float> x, y;                      ///< where the beam ended [m]
+  std::vector<float> direction_x, direction_y;  ///< unit vector along the beam
+  std::vector<float> range_variance;            ///< along the beam [m²]
+  std::vector<float> across_variance;           ///< across the beam [m²]
   /// Index in the scan; past the seam of a full circle it counts on from the number of beams.
   std::vector<std::uint32_t> beam;
   std::size_t round = 0;  ///< returns of one round
@@ -25,13 +25,15 @@ struct BeamArray {
 
   /// Takes a scan in. On a full circle the round starts at `first_beam` and every return stands
   /// here twice, one round apart, so that nothing is cut at the seam. The arrays are longer than
-  /// `size` by at least kLanes, so that whole lanes may be read from any return.
+  /// `size` by kPadding beams that lie on no line.
   void assign(const scan::Scan& scan, std::size_t first_beam = 0);
 
  private:
   void reserve(std::size_t returns);
-  void appendRange(const scan::Scan& scan, std::size_t first, std::size_t last, std::size_t shift);
-  void appendMoved(const scan::Scan& scan, std::size_t beam);
+  void appendValid(const scan::Scan& scan, std::size_t first, std::size_t end, std::size_t shift);
+  void appendRun(const scan::Scan& scan, std::size_t first, std::size_t end, std::size_t shift);
+  void place(const scan::Scan& scan, std::size_t first, std::size_t end);
+  void placeMoved(const scan::Scan& scan, std::size_t first, std::size_t end);
   void repeatRound(std::size_t beams);
   void pad();
 };

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/line_estimate.h"
+#include "sightline/lines/packet.h"
 
 namespace sightline::lines {
 
-/// How kLanes beams in a row lie to a line.
+/// How beams lie to a line.
 ///
 /// With the beam from o along d ending in p, the predicted range is r̂ = (ρ − n·o) / (n·d), which is
 /// pears eq. 27 for a sensor that has moved to o, and the innovation ν = r − r̂ = (n·p − ρ) / (n·d).
@@ -16,37 +16,53 @@ namespace sightline::lines {
 /// e = n·p − ρ has the variance q = (n·d)² R, its derivatives are −1 by ρ and the position of the
 /// predicted point along the line by φ (eq. 30).
 struct BeamResiduals {
-  double distance[kLanes];  ///< e [m]
-  double position[kLanes];  ///< along the line, of the point where the beam meets it [m]
-  double weight[kLanes];    ///< 1/q [1/m²]
+  Packet distance;  ///< e [m]
+  Packet position;  ///< along the line, of the point where the beam meets it [m]
+  Packet weight;    ///< 1/q [1/m²]
+
+  /// e²/q = ν²/R.
+  Packet squared() const { return distance * distance * weight; }
 };
 
 /// A beam closer to parallel than this sine measures nothing about the line.
-constexpr double kMinIncidence = 0.01;
+constexpr float kMinIncidence = 0.01F;
 
+/// Of kLanes beams from a return on.
 inline BeamResiduals residualsOf(const BeamArray& beams, std::size_t first,
                                  const LineEstimate& line) {
-  const double nx = line.normal_x;
-  const double ny = line.normal_y;
-  const double* x = beams.x.data() + first;
-  const double* y = beams.y.data() + first;
-  const double* dx = beams.direction_x.data() + first;
-  const double* dy = beams.direction_y.data() + first;
-  const double* along_variance = beams.range_variance.data() + first;
-  const double* across_variance = beams.across_variance.data() + first;
+  const auto nx = static_cast<float>(line.normal_x);
+  const auto ny = static_cast<float>(line.normal_y);
+  const auto rho = static_cast<float>(line.rho);
+  const Packet x = load(beams.x.data() + first);
+  const Packet y = load(beams.y.data() + first);
+  const Packet dx = load(beams.direction_x.data() + first);
+  const Packet dy = load(beams.direction_y.data() + first);
+  const Packet along_variance = load(beams.range_variance.data() + first);
+  const Packet across_variance = load(beams.across_variance.data() + first);
+
+  const Packet facing = nx * dx + ny * dy;
+  const Packet c = larger(facing, all(kMinIncidence));
+  const Packet s = nx * dy - ny * dx;
+  const Packet q = c * c * along_variance + s * s * across_variance;
+  const Packet inverse = 1.0F / (c * q);
+  const Packet e = nx * x + ny * y - rho;
+  constexpr float kOffAnyLine = 1e6F;
   BeamResiduals result;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const double facing = nx * dx[i] + ny * dy[i];
-    const double c = std::max(facing, kMinIncidence);
-    const double s = nx * dy[i] - ny * dx[i];
-    const double q = c * c * along_variance[i] + s * s * across_variance[i];
-    const double inverse = 1.0 / (c * q);
-    const double e = nx * x[i] + ny * y[i] - line.rho;
-    result.distance[i] = facing < kMinIncidence ? 1e3 : e;
-    result.position[i] = nx * y[i] - ny * x[i] - e * s * (q * inverse);
-    result.weight[i] = c * inverse;
-  }
+  result.distance = facing < kMinIncidence ? all(kOffAnyLine) : e;
+  result.position = nx * y - ny * x - e * s * (q * inverse);
+  result.weight = c * inverse;
   return result;
+}
+
+/// Whether a return is within a gate on its residual.
+inline bool isWithin(const BeamArray& beams, std::size_t i, const LineEstimate& line,
+                     float gate_squared) {
+  return residualsOf(beams, i, line).squared()[0] <= gate_squared;
+}
+
+/// Where a beam meets the line, along it [m].
+inline double positionOn(const BeamArray& beams, std::size_t i, const LineEstimate& line) {
+  return static_cast<double>(residualsOf(beams, i, line).position[0]);
 }
 
 }  // namespace sightline::lines

@@ -33,14 +33,14 @@ class BreakPoints {
   };
   Break bestBreak(const LineEstimate& before, const LineEstimate& after, std::size_t low,
                   std::size_t high) const;
-  double costOf(const LineEstimate& line, std::size_t first, std::size_t end) const;
+  bool mayExplain(const LineEstimate& before, const LineEstimate& after, const Piece& piece,
+                  double limit) const;
   bool adjoin(const Piece& before, const Piece& after, const LineEstimate& line) const;
   bool isOn(const LineEstimate& line, std::size_t i) const;
-  double positionOn(const LineEstimate& line, std::size_t i) const;
 
   const BeamArray& beams_;
   Gap gap_;
-  double gate_squared_;
+  float gate_squared_;
   double fragment_limit_;
 };
 

@@ -17,6 +17,12 @@ struct Information {
     return {rho_rho, rho_phi + distance * rho_rho,
             phi_phi + distance * (2.0 * rho_phi + distance * rho_rho)};
   }
+  Information& operator+=(const Information& other) {
+    rho_rho += other.rho_rho;
+    rho_phi += other.rho_phi;
+    phi_phi += other.phi_phi;
+    return *this;
+  }
   double determinant() const { return rho_rho * phi_phi - rho_phi * rho_phi; }
   /// Whether the inverse exists to the accuracy of the numbers.
   bool isDetermined() const {

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/beam_residuals.h"
 #include "sightline/lines/gap.h"
-#include "sightline/lines/line_estimate.h"
 #include "sightline/lines/line_extractor_config.h"
+#include "sightline/lines/normal_equations.h"
+#include "sightline/lines/piece.h"
 
 namespace sightline::lines {
 
@@ -17,40 +17,46 @@ namespace sightline::lines {
 ///
 /// pears moves the state into the sensor's frame of every beam (eqs 20-25). Here the beams have
 /// been moved into the frame of the scan at its stamp instead, where a wall stands still and the
-/// prediction is the identity: the same filter, for any planar motion. Up to kLanes observations
-/// are validated against one prediction and taken in one update.
+/// prediction is the identity: the same filter, for any planar motion. Observations are validated
+/// several at once against one prediction and taken in one update.
 class LineFilter {
  public:
   LineFilter(const BeamArray& beams, const LineExtractorConfig& config);
 
   /// Batch start (section 4.6) with the returns from `first` on, as many as the direction needs.
-  /// Returns one past the last of them, or `first` where no line explains them.
-  std::size_t start(std::size_t first, std::size_t end);
+  /// False where no line explains them.
+  bool start(std::size_t first, std::size_t end);
 
-  /// Filters on from the return `next` with the line that started at `first`. Returns one past the
-  /// last validated one.
-  std::size_t follow(std::size_t first, std::size_t next, std::size_t end);
-
-  const LineEstimate& estimate() const { return estimate_; }
+  /// Filters on from a start. The piece ends one past the last validated return.
+  const Piece& follow(std::size_t end);
 
  private:
+  static constexpr std::size_t kBlock = kPadding;
+  /// Of kBlock observations against one prediction.
+  struct Validation {
+    BeamResiduals residuals[kBlock / kLanes];
+    float excess[kBlock];    // beyond the gate where positive
+    float position[kBlock];  // along the line [m]
+  };
   struct Moments;
   bool fitStart(const Moments& moments, std::size_t first, std::size_t count);
-  std::size_t countValidated(const BeamResiduals& residuals, std::size_t last, std::size_t next,
-                             std::size_t lanes) const;
-  std::array<bool, kLanes> validate(const BeamResiduals& residuals) const;
-  void update(const BeamResiduals& residuals, std::size_t count);
+  std::size_t strideLength() const;
+  std::size_t takeStride(std::size_t next, std::size_t end);
+  std::size_t takeSome(std::size_t next, std::size_t end);
+  Validation validate(std::size_t first) const;
+  bool isUnbroken(std::size_t from, std::size_t to) const;
+  std::size_t countBridged(const Validation& validation, std::size_t next, std::size_t count) const;
+  void update(NormalEquations fresh);
   bool isYoung() const;
-  void relinearise(std::size_t first, std::size_t end);
-  std::size_t lookAhead(const BeamResiduals& residuals, std::size_t last, std::size_t next,
-                        std::size_t lanes) const;
+  void relinearise();
+  std::size_t lookAhead(std::size_t next, std::size_t end) const;
 
   const BeamArray& beams_;
   const LineExtractorConfig& config_;
   Gap gap_;
   double gate_squared_;
-  LineEstimate estimate_;
-  double last_position_ = 0.0;  // of the last validated beam along the line
+  Piece piece_;
+  std::size_t careful_until_ = 0;  // a stride to here has failed
 };
 
 }  // namespace sightline::lines

@@ -12,30 +12,18 @@ struct Piece {
   std::size_t first = 0;
   std::size_t end = 0;
   LineEstimate line;
-  std::size_t beams = 0;    ///< returns within the gate
+  double beams = 0.0;       ///< returns within the gate
   double chi_square = 0.0;  ///< of those
+  /// The returns that line, beams and chi-square are of: refine() makes them those of the piece.
+  std::size_t refined_first = 0;
+  std::size_t refined_end = 0;
+
+  std::size_t size() const { return end - first; }
 };
 
-/// Sums of the Gauss-Newton step of pears eq. 37, each residual divided by its standard deviation.
-struct NormalEquations {
-  Information information;  ///< eq. 39
-  double gradient_rho = 0.0;
-  double gradient_phi = 0.0;
-  double chi_square = 0.0;
-  std::size_t beams = 0;
-};
-
-/// About a line, over the returns [first, end) whose squared residual is within `gate_squared`.
-NormalEquations linearise(const BeamArray& beams, std::size_t first, std::size_t end,
-                          const LineEstimate& line, double gate_squared);
-
-/// Takes one Gauss-Newton step and the information with it. Returns the squared length of the step
-/// in standard deviations: how much the sum of squares has fallen. The information has to be
-/// determined.
-double stepTo(const NormalEquations& equations, LineEstimate& line);
-
-/// Maximum-likelihood line of the returns of a piece that lie within the gate (pears eq. 37). False
-/// where they determine none.
+/// Maximum-likelihood line of the returns of a piece that lie within the gate (pears eq. 37). Where
+/// a refined piece has gained or lost a few returns at its ends, only these are looked at. False
+/// where they determine no line.
 bool refine(const BeamArray& beams, double gate_squared, Piece& piece);
 
 }  // namespace sightline::lines
