@@ -10,7 +10,7 @@ using geometry::Pose2;
 using motion::OdometryNoise;
 
 constexpr int kRuns = 1000;
-constexpr double kSmall = 0.0125; // m or rad, a step of the simulation
+constexpr double kSmall = 0.0125;  // m or rad, a step of the simulation
 
 // Drives a piece of constant curvature in small steps; returns what the wheels say of it.
 Pose2 drive(WheelOdometry& wheels, const Eigen::Vector3d& way) {
