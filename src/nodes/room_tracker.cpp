@@ -97,7 +97,7 @@ class RoomTrackerNode {
   ros::WallTimer diagnostics_timer_;
 };
 
-RoomTrackerNodeConfig readConfig(const ros::NodeHandle& private_node) {
+RoomTrackerNodeConfig readRoomTrackerConfig(const ros::NodeHandle& private_node) {
   auto config = bridge::readParameters<RoomTrackerNodeConfig>(private_node);
   const std::string source = private_node.getNamespace();
   if (config.rooms.empty()) throw config::Error(source, 0, "rooms", "has to name a rooms file");
@@ -112,7 +112,7 @@ RoomTrackerNodeConfig readConfig(const ros::NodeHandle& private_node) {
 
 RoomTrackerNode::RoomTrackerNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : node_(node),
-      config_(readConfig(private_node)),
+      config_(readRoomTrackerConfig(private_node)),
       tracker_(config_.tracker, world::RoomMap::readFile(config_.rooms)),
       updater_(node, private_node),
       reconfigure_(reconfigure_mutex_, ros::NodeHandle(private_node, "tracker")) {

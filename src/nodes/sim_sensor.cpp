@@ -72,7 +72,7 @@ class SimSensorNode {
   ros::WallTimer end_timer_;
 };
 
-SimSensorConfig readConfig(const ros::NodeHandle& private_node) {
+SimSensorConfig readSimSensorConfig(const ros::NodeHandle& private_node) {
   const auto config = bridge::readParameters<SimSensorConfig>(private_node);
   const auto fail = [&](const char* key, const char* reason) {
     throw config::Error(private_node.getNamespace(), 0, key, reason);
@@ -85,7 +85,7 @@ SimSensorConfig readConfig(const ros::NodeHandle& private_node) {
 
 SimSensorNode::SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : node_(node),
-      config_(readConfig(private_node)),
+      config_(readSimSensorConfig(private_node)),
       simulation_(build()),
       clock_(config_.clock ? bridge::RunClock(node, config_.speed_factor) : bridge::RunClock()),
       updater_(node, private_node) {
