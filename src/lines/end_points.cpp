@@ -1,8 +1,10 @@
 #include "sightline/lines/end_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sightline/lines/beam_residuals.h"
+#include "sightline/lines/neighbour_beam.h"
 
 namespace sightline::lines {
 
@@ -16,6 +18,8 @@ constexpr double kTolerance = 3.0;  // standard deviations
 // A crossing this much less certain (variance) than where the beams say the wall ends proves
 // nothing: that goes for lines one of which is hardly known.
 constexpr double kVaguer = 9.0;
+// Beams between two walls that meet: few, as all that are not lost hit one or the other.
+constexpr std::size_t kMostBetween = 5;
 
 // Of the distance of the line from a point at a position on it.
 double varianceAt(const LineEstimate& line, double position) {
@@ -53,7 +57,7 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
   const LineEstimate& a = piece.line;
   const LineEstimate& b = neighbour.line;
   const double sine = across(a, b);
-  if (std::abs(sine) < kMinCornerSine) return false;
+  if (std::abs(sine) < kMinCornerSine || !areNeighbours(last, next)) return false;
   const double x = (a.rho * b.normal_y - b.rho * a.normal_y) / sine;
   const double y = (b.rho * a.normal_x - a.rho * b.normal_x) / sine;
   const double on_a = a.alongX() * x + a.alongY() * y;
@@ -74,15 +78,27 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
   const double slack = kTolerance * (std::sqrt(noise + va + vb)) / std::abs(sine);
   const double reach_a = std::abs(positionOn(beams_, next, a) - last_on_a);
   const double reach_b = std::abs(positionOn(beams_, last, b) - next_on_b);
-  return std::abs(on_a - last_on_a) < slack + reach_a &&
-         std::abs(on_b - next_on_b) < slack + reach_b;
+  return std::abs(on_a - last_on_a) < slack + reach_a + spacingAt(piece, last) &&
+         std::abs(on_b - next_on_b) < slack + reach_b + spacingAt(neighbour, next);
+}
+
+// On a full circle the numbers may be a round off.
+bool EndPoints::areNeighbours(std::size_t i, std::size_t k) const {
+  const std::size_t count = scan_.beams();
+  const std::size_t ahead = (beams_.beam[k] + 2 * count - beams_.beam[i]) % count;
+  return std::min(ahead, count - ahead) <= kMostBetween + 1;
+}
+
+double EndPoints::spacingAt(const Piece& piece, std::size_t i) const {
+  const std::size_t inner = i == piece.first ? i + 1 : i - 1;
+  return std::abs(positionOn(beams_, inner, piece.line) - positionOn(beams_, i, piece.line));
 }
 
 EndPoint EndPoints::edge(const Piece& piece, std::size_t last, Side side) const {
   const std::size_t beam = beams_.beam[last] % scan_.beams();
   const Meeting on = meet(piece.line, beam);
   EndPoint point{on.position, on.variance, EndKind::kScanLimit};
-  const std::size_t telling = firstTelling(beam, side);
+  const std::size_t telling = nextTellingBeam(scan_, beam, side == Side::kEnd ? 1 : -1);
   if (telling == beam) return point;
   const Meeting past = meet(piece.line, telling);
   if (!past.exists || past.range > scan_.geometry->rangeMax()) return point;
@@ -108,23 +124,6 @@ EndPoints::Meeting EndPoints::meet(const LineEstimate& line, std::size_t beam) c
   const double position = along.dot(origin + range * direction);
   const double slope = along.dot(direction) / facing;
   return {position, range, slope * slope * varianceAt(line, position), range > 0.0};
-}
-
-std::size_t EndPoints::firstTelling(std::size_t beam, Side side) const {
-  const std::size_t count = scan_.beams();
-  const bool circle = scan_.geometry->isFullCircle();
-  std::size_t i = beam;
-  for (std::size_t step = 1; step < count; ++step) {
-    if (side == Side::kEnd) {
-      if (!circle && i + 1 == count) return beam;
-      i = (i + 1) % count;
-    } else {
-      if (!circle && i == 0) return beam;
-      i = (i + count - 1) % count;
-    }
-    if (scan_.kinds[i] != scan::ReturnKind::kInvalid) return i;
-  }
-  return beam;
 }
 
 }  // namespace sightline::lines

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "sightline/lines/break_points.h"
-#include "sightline/lines/chi_square.h"
 #include "sightline/lines/end_points.h"
 #include "sightline/lines/line_filter.h"
 #include "sightline/lines/merging.h"
@@ -22,20 +21,33 @@ Piece shifted(const Piece& piece, std::size_t round) {
   return result;
 }
 
+// They follow the sweep, which on a full circle may begin anywhere.
+template <class Feature>
+void inOrderOfBeams(std::vector<Feature>& features) {
+  const auto isBefore = [](const Feature& a, const Feature& b) {
+    return a.first_beam < b.first_beam;
+  };
+  const auto first = std::min_element(features.begin(), features.end(), isBefore);
+  std::rotate(features.begin(), first, features.end());
+}
+
 }  // namespace
 
-LineExtractor::LineExtractor(const LineExtractorConfig& config) : config_(config) {
+LineExtractor::LineExtractor(const LineExtractorConfig& config)
+    : config_(config), arc_finder_(config) {
   config::validate(config_);
 }
 
 const std::vector<geometry::LineSegment>& LineExtractor::extract(const scan::Scan& scan) {
   pieces_.clear();
   segments_.clear();
+  arcs_.clear();
   findPieces(scan);
   dropFragments();
   placeBreaks();
   refinePieces();
   mergePieces();
+  arc_finder_.find(scan, beams_, pieces_, arcs_);
   report(scan);
   return segments_;
 }
@@ -120,43 +132,54 @@ void LineExtractor::mergePieces() {
   }
 }
 
-bool LineExtractor::isWall(const Piece& piece) const {
-  if (piece.beams < config_.min_beams) return false;
-  const double limit = chiSquareLimit(config_.gate, piece.beams - 2.0);
-  return piece.chi_square <= limit * config_.misfit * config_.misfit;
-}
-
 void LineExtractor::report(const scan::Scan& scan) {
   const bool circle = beams_.size > beams_.round;
   const EndPoints ends(scan, beams_);
-  const auto beamAt = [&](std::size_t i) { return beams_.beam[i] % scan.beams(); };
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
-    if (!isWall(piece)) continue;
-    const Piece* before = i > 0 ? &pieces_[i - 1] : circle ? &pieces_.back() : nullptr;
+    if (!isWall(piece, config_)) continue;
+    const bool alone = pieces_.size() == 1;
+    const Piece* before = i > 0 ? &pieces_[i - 1] : circle && !alone ? &pieces_.back() : nullptr;
     const Piece* after = i + 1 < pieces_.size() ? &pieces_[i + 1]
-                         : circle               ? &pieces_.front()
+                         : circle && !alone     ? &pieces_.front()
                                                 : nullptr;
-    const EndPoint start = ends.start(piece, before == &piece ? nullptr : before);
-    const EndPoint end = ends.end(piece, after == &piece ? nullptr : after);
-    if (std::abs(end.position - start.position) < config_.min_length) continue;
-    const LineEstimate& line = piece.line;
-    const Eigen::Vector2d foot(line.rho * line.normal_x, line.rho * line.normal_y);
-    const Eigen::Vector2d along(line.alongX(), line.alongY());
-    geometry::LineSegment segment;
-    segment.line = line.polar();
-    segment.ends = {foot + start.position * along, foot + end.position * along};
-    segment.start_sigma = std::sqrt(start.variance);
-    segment.end_sigma = std::sqrt(end.variance);
-    segment.start_kind = start.kind;
-    segment.end_kind = end.kind;
-    segment.first_beam = beamAt(piece.first);
-    segment.last_beam = beamAt(piece.end - 1);
-    segment.beams = static_cast<std::size_t>(piece.beams);
-    segment.chi_square = piece.chi_square;
-    segment.degrees_of_freedom = segment.beams - 2;
-    segments_.push_back(segment);
+    const EndPoint start = ends.start(piece, before);
+    const EndPoint end = ends.end(piece, after);
+    if (isLong(piece, start, end)) segments_.push_back(segmentOf(piece, start, end, scan));
   }
+  inOrderOfBeams(segments_);
+  inOrderOfBeams(arcs_);
+}
+
+// An end between two beams may lie anywhere there, however far they are apart on the line: what
+// counts is what has been seen.
+bool LineExtractor::isLong(const Piece& piece, const EndPoint& start, const EndPoint& end) const {
+  const bool corners =
+      start.kind == geometry::EndKind::kCorner && end.kind == geometry::EndKind::kCorner;
+  const double seen = extent(beams_, piece);
+  const double between = std::abs(end.position - start.position);
+  const double spacing = seen / static_cast<double>(piece.size() - 1);
+  return (corners ? between : std::min(between, seen + 2.0 * spacing)) >= config_.min_length;
+}
+
+geometry::LineSegment LineExtractor::segmentOf(const Piece& piece, const EndPoint& start,
+                                               const EndPoint& end, const scan::Scan& scan) const {
+  const LineEstimate& line = piece.line;
+  const Eigen::Vector2d foot(line.rho * line.normal_x, line.rho * line.normal_y);
+  const Eigen::Vector2d along(line.alongX(), line.alongY());
+  geometry::LineSegment segment;
+  segment.line = line.polar();
+  segment.ends = {foot + start.position * along, foot + end.position * along};
+  segment.start_sigma = std::sqrt(start.variance);
+  segment.end_sigma = std::sqrt(end.variance);
+  segment.start_kind = start.kind;
+  segment.end_kind = end.kind;
+  segment.first_beam = beams_.beam[piece.first] % scan.beams();
+  segment.last_beam = beams_.beam[piece.end - 1] % scan.beams();
+  segment.beams = static_cast<std::size_t>(piece.beams);
+  segment.chi_square = piece.chi_square;
+  segment.degrees_of_freedom = segment.beams - 2;
+  return segment;
 }
 
 }  // namespace sightline::lines

@@ -26,6 +26,11 @@ void LineExtractorConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("min_length", min_length, {"m", {0.0, 100.0}, "shorter segments are left out"});
   visitor.integer("min_beams", min_beams,
                   {"beams", {3.0, 1e6}, "segments of fewer beams are left out"});
+  visitor.number(
+      "max_radius", max_radius,
+      {"m", {0.0, 100.0}, "of an arc; a wall that bends less counts as straight; 0: no arcs"});
+  visitor.integer("min_arc_beams", min_arc_beams,
+                  {"beams", {4.0, 1e6}, "arcs of fewer beams are left out"});
 }
 
 }  // namespace sightline::lines

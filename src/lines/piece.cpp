@@ -1,7 +1,10 @@
 #include "sightline/lines/piece.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "sightline/lines/beam_residuals.h"
+#include "sightline/lines/chi_square.h"
 #include "sightline/lines/normal_equations.h"
 
 namespace sightline::lines {
@@ -67,6 +70,17 @@ bool refine(const BeamArray& beams, double gate_squared, Piece& piece) {
     if (fallen < kSmallStep) break;
   }
   return true;
+}
+
+bool isWall(const Piece& piece, const LineExtractorConfig& config) {
+  if (piece.beams < config.min_beams) return false;
+  const double limit = chiSquareLimit(config.gate, piece.beams - 2.0);
+  return piece.chi_square <= limit * config.misfit * config.misfit;
+}
+
+double extent(const BeamArray& beams, const Piece& piece) {
+  return std::abs(positionOn(beams, piece.end - 1, piece.line) -
+                  positionOn(beams, piece.first, piece.line));
 }
 
 }  // namespace sightline::lines

@@ -10,10 +10,10 @@
 namespace sightline::bridge {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-
 class FollowingClock : public testing::Test {
  protected:
+  static constexpr std::int64_t kSecond = 1'000'000'000;
+
   void SetUp() override {
     ros::Time::init();
     ros::Time::setNow(ros::Time());
@@ -54,7 +54,7 @@ TEST(OdometryMessage, HoldsPoseTwistAndTheirCovariances) {
   geometry::UncertainPose2 pose{{1.0, 2.0, 0.5}, Eigen::Matrix3d::Zero()};
   pose.covariance << 1, 2, 3, 2, 5, 6, 3, 6, 9;
   const UncertainTwist2 twist{{0.4, 0.01, -0.2}, 0.1 * pose.covariance};
-  const auto message = toOdometryMessage({7 * kSecond + 5, "odom", "base_link"}, pose, twist);
+  const auto message = toOdometryMessage({7'000'000'005, "odom", "base_link"}, pose, twist);
   EXPECT_EQ(message.header.stamp, ros::Time(7, 5));
   EXPECT_EQ(message.header.frame_id, "odom");
   EXPECT_EQ(message.child_frame_id, "base_link");

@@ -40,9 +40,11 @@ class EndPoints {
   EndPoint edge(const Piece& piece, std::size_t last, Side side) const;
   bool corner(const Piece& piece, const Piece& neighbour, std::size_t last, std::size_t next,
               EndPoint& point) const;
+  bool areNeighbours(std::size_t i, std::size_t k) const;
+  /// Between an outermost return of a piece and the one before it: near a corner the noise may put
+  /// a return on the other wall.
+  double spacingAt(const Piece& piece, std::size_t i) const;
   Meeting meet(const LineEstimate& line, std::size_t beam) const;
-  /// The first beam of the scan past `beam` that says something; `beam` itself where none does.
-  std::size_t firstTelling(std::size_t beam, Side side) const;
 
   const scan::Scan& scan_;
   const BeamArray& beams_;

@@ -2,8 +2,11 @@
 
 #include <vector>
 
+#include "sightline/geometry/arc.h"
 #include "sightline/geometry/line_segment.h"
+#include "sightline/lines/arc_finder.h"
 #include "sightline/lines/beam_array.h"
+#include "sightline/lines/end_points.h"
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/lines/piece.h"
 #include "sightline/scan/scan.h"
@@ -15,7 +18,7 @@ namespace sightline::lines {
 /// The line filter of pears section 4 finds the pieces. Each is then fitted to its beams by maximum
 /// likelihood, the breaks between neighbours are put where the two lines explain the beams best,
 /// and pieces of one wall are joined; what is left that is long enough, and that the noise of the
-/// beams explains, is a wall.
+/// beams explains, is a wall. What is likelier round than straight is an arc.
 class LineExtractor {
  public:
   /// Throws config::Error where a setting is out of range.
@@ -25,6 +28,8 @@ class LineExtractor {
   /// the seam of a full circle comes last. Valid until the next call. Nothing is allocated once
   /// scans no larger and no richer have been seen.
   const std::vector<geometry::LineSegment>& extract(const scan::Scan& scan);
+  /// Round things in the scan that was extracted last, in the same frame and order.
+  const std::vector<geometry::Arc>& arcs() const { return arcs_; }
 
  private:
   void findPieces(const scan::Scan& scan);
@@ -33,13 +38,17 @@ class LineExtractor {
   void dropFragments();
   void mergePieces();
   void placeBreaks();
-  bool isWall(const Piece& piece) const;
   void report(const scan::Scan& scan);
+  bool isLong(const Piece& piece, const EndPoint& start, const EndPoint& end) const;
+  geometry::LineSegment segmentOf(const Piece& piece, const EndPoint& start, const EndPoint& end,
+                                  const scan::Scan& scan) const;
 
   LineExtractorConfig config_;
   BeamArray beams_;
   std::vector<Piece> pieces_;
+  ArcFinder arc_finder_;
   std::vector<geometry::LineSegment> segments_;
+  std::vector<geometry::Arc> arcs_;
 };
 
 }  // namespace sightline::lines

@@ -14,6 +14,8 @@ struct LineExtractorConfig {
   int max_gap_beams = 4;
   double min_length = 0.5;  ///< [m]
   int min_beams = 10;
+  double max_radius = 2.5;  ///< of an arc [m]; 0: no arcs
+  int min_arc_beams = 6;
 
   void visit(config::FieldVisitor& visitor);
 };

@@ -4,6 +4,7 @@
 
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/line_estimate.h"
+#include "sightline/lines/line_extractor_config.h"
 
 namespace sightline::lines {
 
@@ -25,5 +26,11 @@ struct Piece {
 /// a refined piece has gained or lost a few returns at its ends, only these are looked at. False
 /// where they determine no line.
 bool refine(const BeamArray& beams, double gate_squared, Piece& piece);
+
+/// Whether it has enough returns, and the noise explains their residuals.
+bool isWall(const Piece& piece, const LineExtractorConfig& config);
+
+/// From its first return to its last along the line [m].
+double extent(const BeamArray& beams, const Piece& piece);
 
 }  // namespace sightline::lines

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "sightline/fitting/arc_fit.h"
+#include "sightline/geometry/arc.h"
+#include "sightline/lines/arc_runs.h"
+#include "sightline/lines/beam_array.h"
+#include "sightline/lines/line_extractor_config.h"
+#include "sightline/lines/piece.h"
+#include "sightline/scan/scan.h"
+
+namespace sightline::lines {
+
+/// Pillars, legs and curved walls.
+///
+/// Every run of returns that may be round is fitted with a circle. The circle stands where it is
+/// the likelier explanation: where it costs less than lines do, each parameter counted as by
+/// Schwarz (1978). Where the run ends because the beams pass by, the rays that graze the circle are
+/// observations of it, too.
+class ArcFinder {
+ public:
+  explicit ArcFinder(const LineExtractorConfig& config);
+
+  /// Appends the arcs in the order of the sweep; the pieces that are chords of one are taken out.
+  void find(const scan::Scan& scan, const BeamArray& beams, std::vector<Piece>& pieces,
+            std::vector<geometry::Arc>& arcs);
+
+ private:
+  enum class Side { kStart, kEnd };
+  bool consider(const scan::Scan& scan, const BeamArray& beams, const Run& run,
+                std::vector<Piece>& pieces, std::vector<geometry::Arc>& arcs);
+  void observe(const scan::Scan& scan, const BeamArray& beams, const Run& run);
+  void observeTangent(const scan::Scan& scan, std::size_t beam, Side side);
+  bool isPlausible(const fitting::ArcFit& fit) const;
+  bool isLikelier(const fitting::ArcFit& fit, const BeamArray& beams, const Run& run,
+                  const std::vector<Piece>& pieces) const;
+
+  LineExtractorConfig config_;
+  double gate_squared_;
+  ArcRuns runs_;
+  fitting::ArcObservations observations_;
+};
+
+}  // namespace sightline::lines

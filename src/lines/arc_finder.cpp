@@ -1,0 +1,180 @@
+#include "sightline/lines/arc_finder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sightline/geometry/angle.h"
+#include "sightline/lines/chi_square.h"
+#include "sightline/lines/neighbour_beam.h"
+
+namespace sightline::lines {
+
+namespace {
+
+using fitting::ArcFit;
+
+// Share of a run that the circle may leave unexplained.
+constexpr double kStrayShare = 0.2;
+// Standard deviation of the radius over the radius, at most.
+constexpr double kRadiusKnown = 0.5;
+constexpr double kArcParameters = 3.0;
+constexpr double kLineParameters = 2.0;
+
+bool overlaps(const Piece& piece, const Run& run, std::size_t round) {
+  for (const std::size_t shift : {std::size_t{0}, round}) {
+    if (piece.first + shift < run.end && run.first < piece.end + shift) return true;
+  }
+  return false;
+}
+
+// Of the straight line through the returns that minimises their squared distances, each return
+// weighted alike: good enough to be compared with.
+double costOfLine(const std::vector<fitting::ArcReturn>& returns, double gate_squared) {
+  Eigen::Vector2d middle(0, 0);
+  for (const auto& of : returns) middle += of.point;
+  middle /= static_cast<double>(returns.size());
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const auto& of : returns) {
+    const Eigen::Vector2d p = of.point - middle;
+    xx += p.x() * p.x();
+    xy += p.x() * p.y();
+    yy += p.y() * p.y();
+  }
+  const double along = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const Eigen::Vector2d normal(-std::sin(along), std::cos(along));
+  double cost = 0.0;
+  for (const auto& of : returns) {
+    const double facing = normal.dot(of.direction);
+    const double variance =
+        facing * facing * of.range_variance + (1.0 - facing * facing) * of.across_variance;
+    const double distance = normal.dot(of.point - middle);
+    cost += std::min(gate_squared, distance * distance / variance);
+  }
+  return cost;
+}
+
+geometry::Arc toArc(const ArcFit& fit, const scan::Scan& scan, const BeamArray& beams,
+                    const Run& run) {
+  const auto directionOf = [&](std::size_t i) {
+    return std::atan2(static_cast<double>(beams.y[i]) - fit.centre.y(),
+                      static_cast<double>(beams.x[i]) - fit.centre.x());
+  };
+  geometry::Arc arc;
+  arc.centre = fit.centre;
+  arc.radius = fit.radius;
+  arc.covariance = fit.covariance;
+  arc.start_angle = directionOf(run.first);
+  arc.end_angle = directionOf(run.end - 1);
+  // Seen from outside, the point runs round the circle against the sense of the sweep.
+  if (fit.convex == (scan.geometry->angleIncrement() > 0.0)) {
+    std::swap(arc.start_angle, arc.end_angle);
+  }
+  if (arc.end_angle < arc.start_angle) arc.end_angle += 2.0 * geometry::kPi;
+  arc.first_beam = beams.beam[run.first] % scan.beams();
+  arc.last_beam = beams.beam[run.end - 1] % scan.beams();
+  arc.beams = fit.returns;
+  arc.chi_square = fit.chi_square;
+  arc.degrees_of_freedom = fit.observations() - 3;
+  return arc;
+}
+
+}  // namespace
+
+ArcFinder::ArcFinder(const LineExtractorConfig& config)
+    : config_(config), gate_squared_(config.gate * config.gate), runs_(config) {}
+
+void ArcFinder::find(const scan::Scan& scan, const BeamArray& beams, std::vector<Piece>& pieces,
+                     std::vector<geometry::Arc>& arcs) {
+  if (config_.max_radius <= 0.0 || beams.round == 0) return;
+  runs_.assign(beams, pieces);
+  for (const Run& run : runs_.withDoubtfulWalls()) {
+    if (consider(scan, beams, run, pieces, arcs)) continue;
+    for (const Run& loose : runs_.withoutWalls(run)) {
+      if (loose.size() < run.size()) consider(scan, beams, loose, pieces, arcs);
+    }
+  }
+}
+
+bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const Run& run,
+                         std::vector<Piece>& pieces, std::vector<geometry::Arc>& arcs) {
+  if (run.size() < static_cast<std::size_t>(config_.min_arc_beams)) return false;
+  observe(scan, beams, run);
+  const auto fit = fitting::fitArc(observations_, config_.gate);
+  if (!fit || !isPlausible(*fit) || !isLikelier(*fit, beams, run, pieces)) return false;
+  arcs.push_back(toArc(*fit, scan, beams, run));
+  const auto isChord = [&](const Piece& piece) {
+    return runs_.isDoubtfulWall(piece.first) && overlaps(piece, run, beams.round);
+  };
+  pieces.erase(std::remove_if(pieces.begin(), pieces.end(), isChord), pieces.end());
+  return true;
+}
+
+void ArcFinder::observe(const scan::Scan& scan, const BeamArray& beams, const Run& run) {
+  observations_.returns.clear();
+  observations_.tangents.clear();
+  for (std::size_t i = run.first; i < run.end; ++i) {
+    fitting::ArcReturn of;
+    of.point = {static_cast<double>(beams.x[i]), static_cast<double>(beams.y[i])};
+    of.direction = {static_cast<double>(beams.direction_x[i]),
+                    static_cast<double>(beams.direction_y[i])};
+    of.range_variance = static_cast<double>(beams.range_variance[i]);
+    of.across_variance = static_cast<double>(beams.across_variance[i]);
+    of.spacing =
+        scan.ranges[beams.beam[i] % scan.beams()] * std::abs(scan.geometry->angleIncrement());
+    observations_.returns.push_back(of);
+  }
+  observeTangent(scan, beams.beam[run.first] % scan.beams(), Side::kStart);
+  observeTangent(scan, beams.beam[run.end - 1] % scan.beams(), Side::kEnd);
+}
+
+void ArcFinder::observeTangent(const scan::Scan& scan, std::size_t beam, Side side) {
+  const std::size_t next = nextTellingBeam(scan, beam, side == Side::kEnd ? 1 : -1);
+  if (next == beam) return;
+  const bool passes = scan.kinds[next] == scan::ReturnKind::kNothing ||
+                      (scan.isValid(next) && scan.ranges[next] > scan.ranges[beam]);
+  if (!passes) return;
+  const Eigen::Vector2d on = scan.direction(beam);
+  const Eigen::Vector2d past = scan.direction(next);
+  fitting::ArcTangent tangent;
+  tangent.direction = (on + past).normalized();
+  tangent.origin =
+      scan.sensor_motion.empty() ? Eigen::Vector2d(0, 0) : scan.sensor_motion[beam].translation();
+  const double step = scan.ranges[beam] * (past - on).norm();
+  tangent.variance = step * step / 12.0;
+  observations_.tangents.push_back(tangent);
+}
+
+bool ArcFinder::isPlausible(const ArcFit& fit) const {
+  const double sigma = std::sqrt(fit.covariance(2, 2));
+  if (fit.radius > config_.max_radius || sigma > kRadiusKnown * fit.radius) return false;
+  const auto returns = static_cast<double>(fit.returns);
+  if (returns < (1.0 - kStrayShare) * static_cast<double>(observations_.returns.size())) {
+    return false;
+  }
+  if (returns < config_.min_arc_beams) return false;
+  const double freedom = static_cast<double>(fit.observations()) - kArcParameters;
+  return fit.chi_square <= chiSquareLimit(config_.gate, freedom) * config_.misfit * config_.misfit;
+}
+
+bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run& run,
+                           const std::vector<Piece>& pieces) const {
+  const double price = std::log(static_cast<double>(run.size()));
+  const double arc = fit.chi_square +
+                     gate_squared_ * static_cast<double>(run.size() - fit.returns) +
+                     kArcParameters * price;
+  double lines = 0.0;
+  double loose = static_cast<double>(run.size());
+  for (const Piece& piece : pieces) {
+    if (!runs_.isDoubtfulWall(piece.first) || !overlaps(piece, run, beams.round)) continue;
+    lines += piece.chi_square + (kLineParameters + 1.0) * price;
+    loose -= piece.beams;
+  }
+  if (lines > 0.0) return arc < lines + gate_squared_ * std::max(0.0, loose) - price;
+  // A line does not say where it ends, a circle does.
+  const double parameters = kLineParameters + static_cast<double>(fit.tangents);
+  lines = costOfLine(observations_.returns, gate_squared_) + parameters * price;
+  // What is not seen to end on both sides may go on straight behind what hides it.
+  return arc + (fit.tangents < 2 ? gate_squared_ : 0.0) < lines;
+}
+
+}  // namespace sightline::lines

@@ -1,0 +1,125 @@
+#include "sightline/lines/arc_runs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sightline/lines/beam_residuals.h"
+#include "sightline/lines/chi_square.h"
+
+namespace sightline::lines {
+
+namespace {
+
+// Lines that meet at more than this are no chords of one curve [sine, cosine].
+constexpr double kMostBend = 0.75;
+// Noise alone does not part returns [σ].
+constexpr double kJump = 8.0;
+
+// Sine of the turn from one line to the next.
+double bend(const Piece& before, const Piece& after) {
+  return before.line.normal_x * after.line.normal_y - before.line.normal_y * after.line.normal_x;
+}
+
+}  // namespace
+
+ArcRuns::ArcRuns(const LineExtractorConfig& config) : config_(config), gap_(config) {}
+
+void ArcRuns::assign(const BeamArray& beams, const std::vector<Piece>& pieces) {
+  beams_ = &beams;
+  const bool circle = beams.size > beams.round;
+  begin_ = circle && !pieces.empty() ? pieces.front().first : 0;
+  owners_.assign(beams.round, Owner::kNone);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Owner owner = judge(pieces, i);
+    if (owner != Owner::kNone) setOwner(pieces[i], owner);
+  }
+}
+
+ArcRuns::Owner ArcRuns::judge(const std::vector<Piece>& pieces, std::size_t i) const {
+  const Piece& piece = pieces[i];
+  const double length = extent(*beams_, piece);
+  if (!isWall(piece, config_) || length < config_.min_length) return Owner::kNone;
+  if (length > 2.0 * config_.max_radius) return Owner::kWall;
+  const bool explained = piece.chi_square <= chiSquareLimit(config_.gate, piece.beams - 2.0);
+  return explained && !isChord(pieces, i) ? Owner::kWall : Owner::kDoubtfulWall;
+}
+
+// Three adjoining lines that bend the same way, of which this is one.
+bool ArcRuns::isChord(const std::vector<Piece>& pieces, std::size_t i) const {
+  const auto bendAfter = [&](std::size_t k) {
+    const bool joins = k + 1 < pieces.size() && mayBeChords(pieces[k], pieces[k + 1]);
+    return joins ? bend(pieces[k], pieces[k + 1]) : 0.0;
+  };
+  for (std::size_t first = i - std::min<std::size_t>(i, 2); first <= i; ++first) {
+    if (bendAfter(first) * bendAfter(first + 1) > 0.0) return true;
+  }
+  return false;
+}
+
+bool ArcRuns::mayBeChords(const Piece& before, const Piece& after) const {
+  if (std::abs(bend(before, after)) > kMostBend) return false;
+  return !isJump(before.end - 1, after.first);
+}
+
+// Returns off the line are on something else, unless they are few.
+void ArcRuns::setOwner(const Piece& piece, Owner owner) {
+  const bool whole = static_cast<double>(piece.size()) - piece.beams < config_.min_arc_beams;
+  const auto gate_squared = static_cast<float>(config_.gate * config_.gate);
+  for (std::size_t i = piece.first; i < piece.end; ++i) {
+    if (whole || isWithin(*beams_, i, piece.line, gate_squared)) {
+      owners_[i % owners_.size()] = owner;
+    }
+  }
+}
+
+const std::vector<Run>& ArcRuns::withDoubtfulWalls() {
+  findRuns(begin_, begin_ + owners_.size(), Owner::kDoubtfulWall, runs_);
+  const bool circle = beams_->size > beams_->round;
+  if (circle && runs_.size() > 1 && runs_.front().first == begin_ &&
+      runs_.back().end == begin_ + owners_.size() &&
+      !isJump(begin_ + owners_.size() - 1, begin_ + owners_.size())) {
+    runs_.back().end += runs_.front().size();
+    runs_.erase(runs_.begin());
+  }
+  return runs_;
+}
+
+const std::vector<Run>& ArcRuns::withoutWalls(const Run& run) {
+  findRuns(run.first, run.end, Owner::kNone, loose_runs_);
+  return loose_runs_;
+}
+
+void ArcRuns::findRuns(std::size_t first, std::size_t end, Owner most,
+                       std::vector<Run>& runs) const {
+  runs.clear();
+  bool open = false;
+  for (std::size_t i = first; i < end; ++i) {
+    if (ownerOf(i) > most) {
+      open = false;
+    } else if (open && !isJump(i - 1, i)) {
+      runs.back().end = i + 1;
+    } else {
+      runs.push_back({i, i + 1});
+      open = true;
+    }
+  }
+}
+
+// From one beam to the next, s apart across the beams, the surface of a circle recedes by no more
+// than √(2 R s).
+bool ArcRuns::isJump(std::size_t from, std::size_t to) const {
+  if (!gap_.isSmall(*beams_, from, to)) return true;
+  const auto value = [](const std::vector<float>& array, std::size_t i) {
+    return static_cast<double>(array[i]);
+  };
+  const double x = value(beams_->x, to);
+  const double y = value(beams_->y, to);
+  const double dx = x - value(beams_->x, from);
+  const double dy = y - value(beams_->y, from);
+  const double across =
+      std::abs(value(beams_->direction_x, from) * y - value(beams_->direction_y, from) * x);
+  const double noise = kJump * kJump * value(beams_->range_variance, to);
+  return dx * dx + dy * dy > 2.0 * config_.max_radius * across + noise;
+}
+
+}  // namespace sightline::lines
