@@ -103,7 +103,7 @@ bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const R
   if (!fit || !isPlausible(*fit) || !isLikelier(*fit, beams, run, pieces)) return false;
   arcs.push_back(toArc(*fit, scan, beams, run));
   const auto isChord = [&](const Piece& piece) {
-    return runs_.isDoubtfulWall(piece.first) && overlaps(piece, run, beams.round);
+    return !runs_.isSureWall(piece.first) && overlaps(piece, run, beams.round);
   };
   pieces.erase(std::remove_if(pieces.begin(), pieces.end(), isChord), pieces.end());
   return true;

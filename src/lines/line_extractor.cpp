@@ -123,7 +123,14 @@ void LineExtractor::mergePieces() {
   const Merging merging(beams_, config_);
   std::size_t kept = 0;
   for (std::size_t i = 1; i < pieces_.size(); ++i) {
-    if (!merging.merge(pieces_[kept], pieces_[i])) pieces_[++kept] = pieces_[i];
+    if (merging.merge(pieces_[kept], pieces_[i])) continue;
+    // A wall may go on behind something small.
+    const bool hides = i + 1 < pieces_.size() && extent(beams_, pieces_[i]) < config_.min_length;
+    if (hides && merging.merge(pieces_[kept], pieces_[i + 1])) {
+      ++i;
+    } else {
+      pieces_[++kept] = pieces_[i];
+    }
   }
   pieces_.resize(kept + 1);
   if (beams_.size > beams_.round && pieces_.size() > 1 &&

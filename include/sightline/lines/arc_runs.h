@@ -32,6 +32,7 @@ class ArcRuns {
   const std::vector<Run>& withDoubtfulWalls();
   /// Runs within one of those over returns that lie on no wall at all.
   const std::vector<Run>& withoutWalls(const Run& run);
+  bool isSureWall(std::size_t i) const { return ownerOf(i) == Owner::kWall; }
   bool isDoubtfulWall(std::size_t i) const { return ownerOf(i) == Owner::kDoubtfulWall; }
 
  private:
