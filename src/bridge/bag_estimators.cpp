@@ -49,12 +49,13 @@ void BagLines::process(const LocatedScan& located, const ros::Time& now) {
   const auto& segments = extractor_.extract(located.scan);
   ++scans_;
   segments_ += segments.size();
-  out_.write("/lines", now, toMessage(segments, located.scan));
+  arcs_ += extractor_.arcs().size();
+  out_.write("/lines", now, toMessage(segments, extractor_.arcs(), located.scan));
 }
 
 std::vector<std::string> BagLines::summary() const {
-  return {
-      fmt::format("lines: {:.1f} segments a scan in {} scans", ratio(segments_, scans_), scans_)};
+  return {fmt::format("lines: {:.1f} segments and {:.1f} arcs a scan in {} scans",
+                      ratio(segments_, scans_), ratio(arcs_, scans_), scans_)};
 }
 
 BagRooms::BagRooms(const pipeline::OfflineConfig& config, rosbag::Bag& out,

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "sightline/bridge/marker_drawing.h"
+
 namespace sightline::bridge {
 
 namespace {
@@ -13,67 +15,41 @@ using visualization_msgs::Marker;
 
 constexpr double kSigmas95 = 1.959963984540054;
 constexpr int kBandSteps = 8;
+constexpr int kArcSteps = 16;
 // Above one another, so that none hides in another's plane.
 constexpr double kBandHeight = 0.0;
 constexpr double kWallHeight = 0.01;
 constexpr double kEndHeight = 0.02;
 constexpr double kLabelHeight = 0.1;
 
-std_msgs::ColorRGBA shade(float r, float g, float b, float a) {
-  std_msgs::ColorRGBA colour;
-  colour.r = r;
-  colour.g = g;
-  colour.b = b;
-  colour.a = a;
-  return colour;
-}
-
-std_msgs::ColorRGBA shadeOf(geometry::EndKind kind) {
+std_msgs::ColorRGBA colourOf(geometry::EndKind kind) {
   switch (kind) {
     case geometry::EndKind::kCorner:
-      return shade(0.2F, 0.85F, 0.3F, 1.0F);
+      return colour(0.2F, 0.85F, 0.3F, 1.0F);
     case geometry::EndKind::kOccludingEdge:
-      return shade(0.25F, 0.5F, 1.0F, 1.0F);
+      return colour(0.25F, 0.5F, 1.0F, 1.0F);
     case geometry::EndKind::kOccluded:
-      return shade(1.0F, 0.55F, 0.1F, 1.0F);
+      return colour(1.0F, 0.55F, 0.1F, 1.0F);
     case geometry::EndKind::kScanLimit:
-      return shade(0.55F, 0.55F, 0.55F, 1.0F);
+      return colour(0.55F, 0.55F, 0.55F, 1.0F);
     case geometry::EndKind::kUnknown:
       break;
   }
-  return shade(1.0F, 1.0F, 1.0F, 1.0F);
-}
-
-geometry_msgs::Point raised(const Eigen::Vector2d& point, double height) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = height;
-  return message;
-}
-
-Marker blank(const char* name, int type, const std_msgs::Header& header) {
-  Marker marker;
-  marker.header = header;
-  marker.ns = name;
-  marker.type = type;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  return marker;
+  return colour(1.0F, 1.0F, 1.0F, 1.0F);
 }
 
 void addStroke(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double height,
-               const std_msgs::ColorRGBA& from_shade, const std_msgs::ColorRGBA& to_shade,
+               const std_msgs::ColorRGBA& from_colour, const std_msgs::ColorRGBA& to_colour,
                Marker& marker) {
-  marker.points.push_back(raised(from, height));
-  marker.points.push_back(raised(to, height));
-  marker.colors.push_back(from_shade);
-  marker.colors.push_back(to_shade);
+  marker.points.push_back(toPoint(from, height));
+  marker.points.push_back(toPoint(to, height));
+  marker.colors.push_back(from_colour);
+  marker.colors.push_back(to_colour);
 }
 
 void addWall(const geometry::LineSegment& segment, Marker& marker) {
-  addStroke(segment.ends.start, segment.ends.end, kWallHeight, shadeOf(segment.start_kind),
-            shadeOf(segment.end_kind), marker);
+  addStroke(segment.ends.start, segment.ends.end, kWallHeight, colourOf(segment.start_kind),
+            colourOf(segment.end_kind), marker);
 }
 
 // A bar along the line, as long as the end is uncertain.
@@ -81,7 +57,7 @@ void addEnds(const geometry::LineSegment& segment, Marker& marker) {
   const Eigen::Vector2d along = segment.ends.direction();
   const auto bar = [&](const Eigen::Vector2d& end, double sigma, geometry::EndKind kind) {
     const Eigen::Vector2d half = kSigmas95 * sigma * along;
-    addStroke(end - half, end + half, kEndHeight, shadeOf(kind), shadeOf(kind), marker);
+    addStroke(end - half, end + half, kEndHeight, colourOf(kind), colourOf(kind), marker);
   };
   bar(segment.ends.start, segment.start_sigma, segment.start_kind);
   bar(segment.ends.end, segment.end_sigma, segment.end_kind);
@@ -94,6 +70,14 @@ double halfWidth(const geometry::PolarLine& line, const Eigen::Vector2d& point) 
   return kSigmas95 * std::sqrt(std::max(0.0, jacobian.dot(line.covariance * jacobian)));
 }
 
+// Two triangles between two rungs of a band.
+void addRung(const std::array<geometry_msgs::Point, 2>& before,
+             const std::array<geometry_msgs::Point, 2>& here, Marker& marker) {
+  for (const auto& corner : {before[0], here[0], here[1], before[0], here[1], before[1]}) {
+    marker.points.push_back(corner);
+  }
+}
+
 void addBand(const geometry::LineSegment& segment, Marker& marker) {
   const Eigen::Vector2d normal = segment.line.normal();
   std::array<geometry_msgs::Point, 2> before;
@@ -101,15 +85,63 @@ void addBand(const geometry::LineSegment& segment, Marker& marker) {
     const double share = static_cast<double>(i) / kBandSteps;
     const Eigen::Vector2d point = (1.0 - share) * segment.ends.start + share * segment.ends.end;
     const Eigen::Vector2d half = halfWidth(segment.line, point) * normal;
-    const std::array<geometry_msgs::Point, 2> here{raised(point - half, kBandHeight),
-                                                   raised(point + half, kBandHeight)};
-    if (i > 0) {
-      for (const auto& corner : {before[0], here[0], here[1], before[0], here[1], before[1]}) {
-        marker.points.push_back(corner);
-      }
-    }
+    const std::array<geometry_msgs::Point, 2> here{toPoint(point - half, kBandHeight),
+                                                   toPoint(point + half, kBandHeight)};
+    if (i > 0) addRung(before, here, marker);
     before = here;
   }
+}
+
+Eigen::Vector2d directionAt(const geometry::Arc& arc, int step) {
+  const double share = static_cast<double>(step) / kArcSteps;
+  const double angle = (1.0 - share) * arc.start_angle + share * arc.end_angle;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+void addArc(const geometry::Arc& arc, Marker& marker) {
+  for (int i = 0; i < kArcSteps; ++i) {
+    for (const int step : {i, i + 1}) {
+      const Eigen::Vector2d point = arc.centre + arc.radius * directionAt(arc, step);
+      marker.points.push_back(toPoint(point, kWallHeight));
+    }
+  }
+}
+
+// In a direction from the centre, the circle is as uncertain as centre and radius are there.
+void addArcBand(const geometry::Arc& arc, Marker& marker) {
+  std::array<geometry_msgs::Point, 2> before;
+  for (int i = 0; i <= kArcSteps; ++i) {
+    const Eigen::Vector2d direction = directionAt(arc, i);
+    const Eigen::Vector3d jacobian(direction.x(), direction.y(), 1.0);
+    const double half =
+        kSigmas95 * std::sqrt(std::max(0.0, jacobian.dot(arc.covariance * jacobian)));
+    const std::array<geometry_msgs::Point, 2> here{
+        toPoint(arc.centre + (arc.radius - half) * direction, kBandHeight),
+        toPoint(arc.centre + (arc.radius + half) * direction, kBandHeight)};
+    if (i > 0) addRung(before, here, marker);
+    before = here;
+  }
+}
+
+template <class Feature>
+double misfit(const Feature& feature) {
+  return feature.chi_square /
+         std::max<double>(1.0, static_cast<double>(feature.degrees_of_freedom));
+}
+
+std::vector<LineMarkers::Label> labelsOf(const std::vector<geometry::LineSegment>& segments,
+                                         const std::vector<geometry::Arc>& arcs) {
+  std::vector<LineMarkers::Label> labels;
+  for (const auto& segment : segments) {
+    labels.push_back({segment.ends.midpoint(),
+                      fmt::format("{:.2f} m, {} beams\nchi2/dof {:.2f}", segment.ends.length(),
+                                  segment.beams, misfit(segment))});
+  }
+  for (const auto& arc : arcs) {
+    labels.push_back({arc.centre, fmt::format("r {:.3f} m, {} beams\nchi2/dof {:.2f}", arc.radius,
+                                              arc.beams, misfit(arc))});
+  }
+  return labels;
 }
 
 // rviz has no use for a list without points.
@@ -126,45 +158,45 @@ void LineMarkersConfig::visit(config::FieldVisitor& visitor) {
 }
 
 visualization_msgs::MarkerArray LineMarkers::draw(
-    const std::vector<geometry::LineSegment>& segments, const std_msgs::Header& header) {
-  Marker walls = blank("segments", Marker::LINE_LIST, header);
-  walls.scale.x = config_.width;
-  Marker ends = blank("ends", Marker::LINE_LIST, header);
-  ends.scale.x = 2.0 * config_.width;
-  Marker bands = blank("bands", Marker::TRIANGLE_LIST, header);
-  bands.scale.x = bands.scale.y = bands.scale.z = 1.0;
-  bands.color = shade(1.0F, 0.9F, 0.2F, 0.35F);
+    const std::vector<geometry::LineSegment>& segments, const std::vector<geometry::Arc>& arcs,
+    const std_msgs::Header& header) {
+  Marker walls = emptyMarker("segments", Marker::LINE_LIST, header, config_.width);
+  Marker ends = emptyMarker("ends", Marker::LINE_LIST, header, 2.0 * config_.width);
+  Marker bands = emptyMarker("bands", Marker::TRIANGLE_LIST, header, 1.0);
+  bands.scale.z = 1.0;
+  Marker rounds = emptyMarker("arcs", Marker::LINE_LIST, header, config_.width);
+  rounds.color = colour(0.9F, 0.3F, 0.9F);
+  bands.color = colour(1.0F, 0.9F, 0.2F, 0.35F);
   for (const auto& segment : segments) {
     addWall(segment, walls);
     addEnds(segment, ends);
     addBand(segment, bands);
   }
+  for (const auto& arc : arcs) {
+    addArc(arc, rounds);
+    addArcBand(arc, bands);
+  }
   visualization_msgs::MarkerArray array;
-  for (Marker* marker : {&walls, &ends, &bands}) finish(std::move(*marker), array);
-  drawLabels(segments, header, array);
+  for (Marker* marker : {&walls, &ends, &bands, &rounds}) finish(std::move(*marker), array);
+  drawLabels(labelsOf(segments, arcs), header, array);
   return array;
 }
 
-void LineMarkers::drawLabels(const std::vector<geometry::LineSegment>& segments,
-                             const std_msgs::Header& header,
+void LineMarkers::drawLabels(const std::vector<Label>& labels, const std_msgs::Header& header,
                              visualization_msgs::MarkerArray& array) {
-  const std::size_t wanted = config_.labels ? segments.size() : 0;
+  const std::size_t wanted = config_.labels ? labels.size() : 0;
   for (std::size_t i = 0; i < std::max(wanted, labels_shown_); ++i) {
-    Marker label = blank("labels", Marker::TEXT_VIEW_FACING, header);
-    label.id = static_cast<int>(i);
-    label.scale.z = 0.12;
-    label.color = shade(1.0F, 1.0F, 1.0F, 1.0F);
+    Marker marker = emptyMarker("labels", Marker::TEXT_VIEW_FACING, header, 0.0);
+    marker.id = static_cast<int>(i);
+    marker.scale.z = 0.12;
+    marker.color = colour(1.0F, 1.0F, 1.0F);
     if (i < wanted) {
-      const geometry::LineSegment& segment = segments[i];
-      label.pose.position = raised(segment.ends.midpoint(), kLabelHeight);
-      label.text =
-          fmt::format("{:.2f} m, {} beams\nchi2/dof {:.2f}", segment.ends.length(), segment.beams,
-                      segment.chi_square /
-                          std::max<double>(1.0, static_cast<double>(segment.degrees_of_freedom)));
+      marker.pose.position = toPoint(labels[i].place, kLabelHeight);
+      marker.text = labels[i].text;
     } else {
-      label.action = Marker::DELETE;
+      marker.action = Marker::DELETE;
     }
-    array.markers.push_back(std::move(label));
+    array.markers.push_back(std::move(marker));
   }
   labels_shown_ = wanted;
 }

@@ -6,6 +6,8 @@ namespace sightline::bridge {
 
 namespace {
 
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
 geometry_msgs::Point endPoint(const Eigen::Vector2d& point) {
   geometry_msgs::Point message;
   message.x = point.x();
@@ -62,13 +64,47 @@ geometry::LineSegment fromMessage(const LineSegment& message) {
   return segment;
 }
 
+Arc toMessage(const geometry::Arc& arc) {
+  Arc message;
+  message.id = arc.id;
+  message.centre = endPoint(arc.centre);
+  message.radius = arc.radius;
+  Eigen::Map<RowMajor3>(message.covariance.data()) = arc.covariance;
+  message.start_angle = arc.start_angle;
+  message.end_angle = arc.end_angle;
+  message.first_beam = static_cast<std::uint32_t>(arc.first_beam);
+  message.last_beam = static_cast<std::uint32_t>(arc.last_beam);
+  message.beams = static_cast<std::uint32_t>(arc.beams);
+  message.chi_square = arc.chi_square;
+  message.degrees_of_freedom = static_cast<std::uint32_t>(arc.degrees_of_freedom);
+  return message;
+}
+
+geometry::Arc fromMessage(const Arc& message) {
+  geometry::Arc arc;
+  arc.id = message.id;
+  arc.centre = {message.centre.x, message.centre.y};
+  arc.radius = message.radius;
+  arc.covariance = Eigen::Map<const RowMajor3>(message.covariance.data());
+  arc.start_angle = message.start_angle;
+  arc.end_angle = message.end_angle;
+  arc.first_beam = message.first_beam;
+  arc.last_beam = message.last_beam;
+  arc.beams = message.beams;
+  arc.chi_square = message.chi_square;
+  arc.degrees_of_freedom = message.degrees_of_freedom;
+  return arc;
+}
+
 LineSegmentArray toMessage(const std::vector<geometry::LineSegment>& segments,
-                           const scan::Scan& scan) {
+                           const std::vector<geometry::Arc>& arcs, const scan::Scan& scan) {
   LineSegmentArray message;
   message.header.stamp = timeOf(scan.stamp);
   message.header.frame_id = scan.frame;
   message.segments.reserve(segments.size());
   for (const auto& segment : segments) message.segments.push_back(toMessage(segment));
+  message.arcs.reserve(arcs.size());
+  for (const auto& arc : arcs) message.arcs.push_back(toMessage(arc));
   return message;
 }
 

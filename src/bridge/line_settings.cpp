@@ -11,6 +11,8 @@ sightline::LineExtractorConfig toReconfigure(const lines::LineExtractorConfig& c
   result.max_gap_beams = config.max_gap_beams;
   result.min_length = config.min_length;
   result.min_beams = config.min_beams;
+  result.max_radius = config.max_radius;
+  result.min_arc_beams = config.min_arc_beams;
   return result;
 }
 
@@ -23,6 +25,8 @@ lines::LineExtractorConfig fromReconfigure(const sightline::LineExtractorConfig&
   result.max_gap_beams = config.max_gap_beams;
   result.min_length = config.min_length;
   result.min_beams = config.min_beams;
+  result.max_radius = config.max_radius;
+  result.min_arc_beams = config.min_arc_beams;
   return result;
 }
 

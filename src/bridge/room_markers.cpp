@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sightline/bridge/marker_drawing.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
 #include "sightline/geometry/ellipse.h"
@@ -14,23 +15,6 @@ using visualization_msgs::Marker;
 
 constexpr float kWallWidth = 0.06F;
 
-std_msgs::ColorRGBA colour(float r, float g, float b, float a = 1.0F) {
-  std_msgs::ColorRGBA result;
-  result.r = r;
-  result.g = g;
-  result.b = b;
-  result.a = a;
-  return result;
-}
-
-geometry_msgs::Point toPoint(const Eigen::Vector2d& point, double height) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = height;
-  return message;
-}
-
 // Everything that one array of markers is drawn from.
 struct Scene {
   const tracking::TrackerUpdate& update;
@@ -38,15 +22,7 @@ struct Scene {
   std_msgs::Header header;
 
   Marker marker(const std::string& name, int type, double width) const {
-    Marker result;
-    result.header = header;
-    result.ns = name;
-    result.type = type;
-    result.action = Marker::ADD;
-    result.pose.orientation.w = 1.0;
-    result.scale.x = width;
-    result.scale.y = width;
-    return result;
+    return emptyMarker(name, type, header, width);
   }
 };
 

@@ -88,10 +88,11 @@ void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
 void LineExtractorNode::extract(scan::Scan& scan) {
   if (sweep_) ++(sweep_->addMotion(scan) ? corrected_ : uncorrected_);
   const auto& segments = extractor_.extract(scan);
-  const auto message = boost::make_shared<LineSegmentArray>(bridge::toMessage(segments, scan));
+  const auto message =
+      boost::make_shared<LineSegmentArray>(bridge::toMessage(segments, extractor_.arcs(), scan));
   lines_publisher_.publish(message);
   if (marker_publisher_.getNumSubscribers() > 0) {
-    marker_publisher_.publish(markers_.draw(segments, message->header));
+    marker_publisher_.publish(markers_.draw(segments, extractor_.arcs(), message->header));
   }
 }
 

@@ -12,7 +12,7 @@ namespace sightline::nodes {
 /// Parameters of the node line_extractor.
 struct LineExtractorNodeConfig {
   std::string fixed_frame;
-  scan::NoiseModel noise;
+  scan::NoiseModel noise{scan::NoiseKind::kEstimated};
   lines::LineExtractorConfig lines;
   bridge::LineMarkersConfig markers;
 

@@ -2,13 +2,19 @@
 
 #include <cmath>
 
+#include "sightline/scan/estimated_noise.h"
+
 namespace sightline::scan {
 
 void NoiseModel::visit(config::FieldVisitor& visitor) {
-  visitor.choice("kind", kind, {"constant", "proportional", "uniform", "isotropic", "intensity"},
+  visitor.choice("kind", kind,
+                 {"constant", "proportional", "uniform", "isotropic", "intensity", "estimated"},
                  "shape of the noise");
-  visitor.number("sigma", sigma,
-                 {"m", {1e-6, 10.0}, "standard deviation along a beam, or its constant part"});
+  visitor.number(
+      "sigma", sigma,
+      {"m",
+       {1e-6, 10.0},
+       "standard deviation along a beam, or its constant part, or its least (estimated)"});
   visitor.number(
       "sigma_per_metre", sigma_per_metre,
       {"1", {0.0, 1.0}, "proportional: share of the range added to sigma in quadrature"});
@@ -43,6 +49,7 @@ double NoiseModel::rangeVariance(double range, double intensity) const {
     }
     case NoiseKind::kConstant:
     case NoiseKind::kIsotropic:
+    case NoiseKind::kEstimated:
       break;
   }
   return sigma * sigma;
@@ -75,6 +82,7 @@ void applyNoise(const NoiseModel& model, Scan& scan) {
     const double intensity = scan.intensities.empty() ? 0.0 : scan.intensities[i];
     scan.range_variances[i] = model.rangeVariance(scan.ranges[i], intensity);
   }
+  if (model.kind == NoiseKind::kEstimated) raiseToEstimate(scan);
   scan.angular_variance = model.angularVariance();
   scan.transverse_variance = model.kind == NoiseKind::kIsotropic ? model.sigma * model.sigma : 0.0;
 }

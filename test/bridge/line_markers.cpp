@@ -52,9 +52,27 @@ std_msgs::Header header() {
   return result;
 }
 
+TEST(LineMarkers, DrawArcsWithTheirBands) {
+  geometry::Arc arc;
+  arc.centre = {1.0, 2.0};
+  arc.radius = 0.5;
+  arc.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  arc.start_angle = 3.0;
+  arc.end_angle = 4.0;
+  const MarkerArray array = LineMarkers().draw({}, {arc}, header());
+  Screen screen;
+  screen.show(array);
+  ASSERT_GT(screen.points("arcs"), 0U);
+  for (const auto& point : array.markers[3].points) {
+    EXPECT_NEAR(std::hypot(point.x - 1.0, point.y - 2.0), 0.5, 1e-12);
+  }
+  EXPECT_GT(screen.points("bands"), 0U);
+  EXPECT_EQ(screen.points("segments"), 0U);
+}
+
 TEST(LineMarkers, DrawWallsWithTheirEndsAndBands) {
   Screen screen;
-  screen.show(LineMarkers().draw({wall(), wall()}, header()));
+  screen.show(LineMarkers().draw({wall(), wall()}, {}, header()));
   EXPECT_EQ(screen.points("segments"), 4U);
   EXPECT_EQ(screen.points("ends"), 8U);
   EXPECT_EQ(screen.points("bands") % 3, 0U);
@@ -71,12 +89,12 @@ TEST(LineMarkers, DrawWallsWithTheirEndsAndBands) {
 TEST(LineMarkers, ColourTellsTheKindOfAnEnd) {
   auto segment = wall();
   segment.start_kind = segment.end_kind;
-  const auto alike = LineMarkers().draw({segment}, header()).markers[0];
+  const auto alike = LineMarkers().draw({segment}, {}, header()).markers[0];
   EXPECT_EQ(alike.colors[0], alike.colors[1]);
   std::vector<std_msgs::ColorRGBA> seen;
   for (int kind = 0; kind <= 4; ++kind) {
     segment.start_kind = static_cast<geometry::EndKind>(kind);
-    const auto colour = LineMarkers().draw({segment}, header()).markers[0].colors[0];
+    const auto colour = LineMarkers().draw({segment}, {}, header()).markers[0].colors[0];
     EXPECT_THAT(seen, testing::Not(testing::Contains(colour)));
     seen.push_back(colour);
   }
@@ -84,7 +102,7 @@ TEST(LineMarkers, ColourTellsTheKindOfAnEnd) {
 
 TEST(LineMarkers, BandHoldsTheLineWith95Percent) {
   Screen screen;
-  screen.show(LineMarkers().draw({wall()}, header()));
+  screen.show(LineMarkers().draw({wall()}, {}, header()));
   // At x = ±1 the standard deviation of the distance is sqrt(1e-4 + 1² · 4e-4).
   double highest = 0.0;
   for (const auto& point : screen.shown.at({"bands", 0}).points) {
@@ -95,7 +113,7 @@ TEST(LineMarkers, BandHoldsTheLineWith95Percent) {
 }
 
 TEST(LineMarkers, BarsAreAsLongAsTheEndsAreUncertain) {
-  const Marker bars = LineMarkers().draw({wall()}, header()).markers[1];
+  const Marker bars = LineMarkers().draw({wall()}, {}, header()).markers[1];
   EXPECT_EQ(bars.ns, "ends");
   EXPECT_NEAR(std::abs(bars.points[0].x - bars.points[1].x), 2.0 * 1.96 * 0.1, 1e-3);
   EXPECT_NEAR(std::abs(bars.points[2].x - bars.points[3].x), 0.0, 1e-9);
@@ -106,22 +124,22 @@ TEST(LineMarkers, NothingIsLeftOver) {
   config.labels = true;
   LineMarkers markers(config);
   Screen screen;
-  screen.show(markers.draw({wall(), wall(), wall()}, header()));
+  screen.show(markers.draw({wall(), wall(), wall()}, {}, header()));
   EXPECT_EQ(screen.shown.size(), 6U);
-  screen.show(markers.draw({wall()}, header()));
+  screen.show(markers.draw({wall()}, {}, header()));
   EXPECT_EQ(screen.shown.size(), 4U);
   EXPECT_EQ(screen.points("segments"), 2U);
-  screen.show(markers.draw({}, header()));
+  screen.show(markers.draw({}, {}, header()));
   EXPECT_TRUE(screen.shown.empty());
 }
 
 TEST(LineMarkers, LabelsComeWhenAskedFor) {
   Screen screen;
-  screen.show(LineMarkers().draw({wall()}, header()));
+  screen.show(LineMarkers().draw({wall()}, {}, header()));
   EXPECT_EQ(screen.shown.count({"labels", 0}), 0U);
   LineMarkersConfig config;
   config.labels = true;
-  screen.show(LineMarkers(config).draw({wall()}, header()));
+  screen.show(LineMarkers(config).draw({wall()}, {}, header()));
   EXPECT_THAT(screen.shown.at({"labels", 0}).text, testing::HasSubstr("2.00 m, 33 beams"));
 }
 

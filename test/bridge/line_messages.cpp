@@ -26,6 +26,36 @@ geometry::LineSegment segment() {
   return result;
 }
 
+TEST(LineMessages, ArcsSurviveTheWay) {
+  geometry::Arc arc;
+  arc.id = 3;
+  arc.centre = {1.0, -2.0};
+  arc.radius = 0.25;
+  arc.covariance << 1, 2, 3, 2, 5, 6, 3, 6, 9;
+  arc.start_angle = 2.5;
+  arc.end_angle = 4.5;
+  arc.first_beam = 30;
+  arc.last_beam = 41;
+  arc.beams = 11;
+  arc.chi_square = 9.5;
+  arc.degrees_of_freedom = 10;
+  const Arc message = toMessage(arc);
+  EXPECT_EQ(message.covariance[1], 2.0);
+  EXPECT_EQ(message.covariance[5], 6.0);
+  const geometry::Arc back = fromMessage(message);
+  EXPECT_EQ(back.id, arc.id);
+  EXPECT_EQ(back.centre, arc.centre);
+  EXPECT_EQ(back.radius, arc.radius);
+  EXPECT_EQ(back.covariance, arc.covariance);
+  EXPECT_EQ(back.start_angle, arc.start_angle);
+  EXPECT_EQ(back.end_angle, arc.end_angle);
+  EXPECT_EQ(back.first_beam, arc.first_beam);
+  EXPECT_EQ(back.last_beam, arc.last_beam);
+  EXPECT_EQ(back.beams, arc.beams);
+  EXPECT_EQ(back.chi_square, arc.chi_square);
+  EXPECT_EQ(back.degrees_of_freedom, arc.degrees_of_freedom);
+}
+
 TEST(LineMessages, FillEveryField) {
   const LineSegment message = toMessage(segment());
   EXPECT_EQ(message.id, 7U);
@@ -72,7 +102,7 @@ TEST(LineMessages, CarryStampAndFrameOfTheScanAlsoWhenEmpty) {
   scan.frame = "laser";
   for (const std::size_t count : {0U, 3U}) {
     const std::vector<geometry::LineSegment> segments(count, segment());
-    const LineSegmentArray message = toMessage(segments, scan);
+    const LineSegmentArray message = toMessage(segments, {}, scan);
     EXPECT_EQ(message.header.stamp, ros::Time(12, 345));
     EXPECT_EQ(message.header.frame_id, "laser");
     EXPECT_EQ(message.segments.size(), count);

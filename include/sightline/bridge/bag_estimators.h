@@ -40,6 +40,7 @@ class BagLines : public BagEstimator {
   rosbag::Bag& out_;
   std::size_t scans_ = 0;
   std::size_t segments_ = 0;
+  std::size_t arcs_ = 0;
 };
 
 /// The pose in the rooms of a map: /pose, /tracker_status, map→odom on /tf, the map itself,

@@ -13,12 +13,13 @@ enum class NoiseKind {
   kUniform,       ///< uniform in range and angle, as a quantising scanner (jensfelt eqs 2-4)
   kIsotropic,     ///< the same in every direction of the plane (jensfelt's runs: 50 mm)
   kIntensity,     ///< a constant part and a part that falls with the intensity (pears eq. 2 scaled)
+  kEstimated,     ///< what each scan shows (estimated_noise.h), for a scanner that nobody knows
 };
 
 /// How well a beam measures.
 struct NoiseModel {
   NoiseKind kind = NoiseKind::kConstant;
-  double sigma = 0.01;              ///< [m]
+  double sigma = 0.01;              ///< [m]; the least of kEstimated
   double sigma_per_metre = 0.0;     ///< kProportional
   double range_half_width = 0.025;  ///< kUniform: Δr [m]
   double angle_half_width = 0.0;    ///< kUniform: Δα [rad]

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include <geometry_msgs/Point.h>
+#include <std_msgs/ColorRGBA.h>
+#include <std_msgs/Header.h>
+#include <visualization_msgs/Marker.h>
+#include <Eigen/Core>
+
+namespace sightline::bridge {
+
+std_msgs::ColorRGBA colour(float r, float g, float b, float a = 1.0F);
+/// [m]
+geometry_msgs::Point toPoint(const Eigen::Vector2d& point, double height);
+/// To be added, in the frame of the header, with the width of its lines [m].
+visualization_msgs::Marker emptyMarker(const std::string& name, int type,
+                                       const std_msgs::Header& header, double width);
+
+}  // namespace sightline::bridge

@@ -1,0 +1,35 @@
+#include "sightline/bridge/marker_drawing.h"
+
+namespace sightline::bridge {
+
+std_msgs::ColorRGBA colour(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA result;
+  result.r = r;
+  result.g = g;
+  result.b = b;
+  result.a = a;
+  return result;
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector2d& point, double height) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = height;
+  return message;
+}
+
+visualization_msgs::Marker emptyMarker(const std::string& name, int type,
+                                       const std_msgs::Header& header, double width) {
+  visualization_msgs::Marker marker;
+  marker.header = header;
+  marker.ns = name;
+  marker.type = type;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = width;
+  marker.scale.y = width;
+  return marker;
+}
+
+}  // namespace sightline::bridge

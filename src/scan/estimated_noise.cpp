@@ -1,0 +1,122 @@
+#include "sightline/scan/estimated_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sightline::scan {
+
+namespace {
+
+// Returns that are fitted with a line to learn of their noise.
+constexpr std::size_t kRun = 8;
+constexpr auto kReturns = static_cast<double>(kRun);
+// How many runs tell enough, and into how many groups of like range they are sorted at most.
+constexpr std::size_t kFewestRuns = 3;
+constexpr std::size_t kRunsOfGroup = 8;
+constexpr std::size_t kMostGroups = 8;
+// Median of χ² over its degrees of freedom, of which a run has two less than returns (Wilson and
+// Hilferty 1931).
+constexpr double kRoot = 1.0 - 2.0 / (9.0 * (kReturns - 2.0));
+constexpr double kMedian = kRoot * kRoot * kRoot;
+// Closer to parallel than this sine, squared, a beam tells nothing of its range.
+constexpr double kLeastIncidence = 0.05;
+
+// Along the beams, of a run about the line that fits it best.
+std::optional<NoiseAtRange> noiseOfRun(const Scan& scan, std::size_t first) {
+  const Eigen::Vector2d origin = scan.point(first);
+  Eigen::Vector2d sum(0, 0);
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (std::size_t i = first; i < first + kRun; ++i) {
+    const Eigen::Vector2d p = scan.point(i) - origin;
+    sum += p;
+    squares += p * p.transpose();
+  }
+  const Eigen::Matrix2d scatter = squares - sum * sum.transpose() / kReturns;
+  const double along = 0.5 * std::atan2(2.0 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
+  const Eigen::Vector2d normal(-std::sin(along), std::cos(along));
+  const double facing = normal.dot(scan.direction(first + kRun / 2));
+  if (facing * facing < kLeastIncidence) return std::nullopt;
+  return NoiseAtRange{scan.ranges[first + kRun / 2],
+                      normal.dot(scatter * normal) / (kReturns - 2.0) / (facing * facing)};
+}
+
+std::vector<NoiseAtRange> noiseOfRuns(const Scan& scan) {
+  std::vector<NoiseAtRange> runs;
+  std::size_t valid = 0;  // in a row, up to here
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    valid = scan.isValid(i) ? valid + 1 : 0;
+    if (valid < kRun) continue;
+    valid = 0;
+    if (const auto noise = noiseOfRun(scan, i + 1 - kRun)) runs.push_back(*noise);
+  }
+  return runs;
+}
+
+bool isNearer(const NoiseAtRange& a, const NoiseAtRange& b) {
+  return a.range < b.range;
+}
+
+template <class Iterator>
+NoiseAtRange medianOf(Iterator first, Iterator end) {
+  const Iterator middle = first + (end - first) / 2;
+  NoiseAtRange noise{middle->range, 0.0};
+  std::nth_element(first, middle, end,
+                   [](const auto& a, const auto& b) { return a.variance < b.variance; });
+  noise.variance = middle->variance / kMedian;
+  return noise;
+}
+
+// Groups that fall with the range are given their mean (pooled adjacent violators).
+void makeMonotonic(std::vector<NoiseAtRange>& noise) {
+  for (std::size_t end = 1; end < noise.size(); ++end) {
+    double sum = noise[end].variance;
+    std::size_t first = end;
+    double mean = sum;
+    while (first > 0 && noise[first - 1].variance > mean) {
+      sum += noise[--first].variance;
+      mean = sum / static_cast<double>(end + 1 - first);
+    }
+    for (std::size_t i = first; i <= end; ++i) noise[i].variance = mean;
+  }
+}
+
+double varianceAt(const std::vector<NoiseAtRange>& noise, double range) {
+  const auto next =
+      std::upper_bound(noise.begin(), noise.end(), NoiseAtRange{range, 0.0}, isNearer);
+  if (next == noise.begin()) return next->variance;
+  const auto before = std::prev(next);
+  if (next == noise.end()) return before->variance;
+  const double share = (range - before->range) / (next->range - before->range);
+  return before->variance + share * (next->variance - before->variance);
+}
+
+}  // namespace
+
+std::vector<NoiseAtRange> estimateNoise(const Scan& scan) {
+  std::vector<NoiseAtRange> runs = noiseOfRuns(scan);
+  if (runs.size() < kFewestRuns) return {};
+  std::sort(runs.begin(), runs.end(), isNearer);
+  const std::size_t groups = std::clamp<std::size_t>(runs.size() / kRunsOfGroup, 1, kMostGroups);
+  std::vector<NoiseAtRange> noise;
+  for (std::size_t k = 0; k < groups; ++k) {
+    const auto at = [&](std::size_t group) {
+      return runs.begin() + static_cast<std::ptrdiff_t>(group * runs.size() / groups);
+    };
+    noise.push_back(medianOf(at(k), at(k + 1)));
+  }
+  makeMonotonic(noise);
+  return noise;
+}
+
+void raiseToEstimate(Scan& scan) {
+  const std::vector<NoiseAtRange> noise = estimateNoise(scan);
+  if (noise.empty()) return;
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    if (!scan.isValid(i)) continue;
+    double& variance = scan.range_variances[i];
+    variance = std::max(variance, varianceAt(noise, scan.ranges[i]));
+  }
+}
+
+}  // namespace sightline::scan
