@@ -53,6 +53,36 @@ double costOfLine(const std::vector<fitting::ArcReturn>& returns, double gate_sq
   return cost;
 }
 
+Eigen::Vector2d meanPoint(const BeamArray& beams, std::size_t first, std::size_t end) {
+  float x = 0.0F;
+  float y = 0.0F;
+  for (std::size_t i = first; i < end; ++i) {
+    x += beams.x[i] - beams.x[first];
+    y += beams.y[i] - beams.y[first];
+  }
+  const auto count = static_cast<float>(end - first);
+  return {static_cast<double>(beams.x[first] + x / count),
+          static_cast<double>(beams.y[first] + y / count)};
+}
+
+// Whether the middle third of a run is off the line through the other two by more than the standard
+// deviation of that. What is not gains nothing by being round, and most of what is left over in a
+// room is of that kind.
+bool bends(const BeamArray& beams, const Run& run) {
+  const std::size_t third = run.size() / 3;
+  const Eigen::Vector2d first = meanPoint(beams, run.first, run.first + third);
+  const Eigen::Vector2d middle = meanPoint(beams, run.first + third, run.end - third);
+  const Eigen::Vector2d last = meanPoint(beams, run.end - third, run.end);
+  const Eigen::Vector2d chord = last - first;
+  const std::size_t at = run.first + run.size() / 2;
+  const double off = chord.x() * (middle.y() - first.y()) - chord.y() * (middle.x() - first.x());
+  const double facing = chord.x() * static_cast<double>(beams.direction_y[at]) -
+                        chord.y() * static_cast<double>(beams.direction_x[at]);
+  const double variance = 1.5 / static_cast<double>(third) * facing * facing *
+                          static_cast<double>(beams.range_variance[at]);
+  return off * off > variance;
+}
+
 geometry::Arc toArc(const ArcFit& fit, const scan::Scan& scan, const BeamArray& beams,
                     const Run& run) {
   const auto directionOf = [&](std::size_t i) {
@@ -86,6 +116,8 @@ ArcFinder::ArcFinder(const LineExtractorConfig& config)
 void ArcFinder::find(const scan::Scan& scan, const BeamArray& beams, std::vector<Piece>& pieces,
                      std::vector<geometry::Arc>& arcs) {
   if (config_.max_radius <= 0.0 || beams.round == 0) return;
+  observations_.returns.reserve(beams.size);
+  observations_.tangents.reserve(2);
   runs_.assign(beams, pieces);
   for (const Run& run : runs_.withDoubtfulWalls()) {
     if (consider(scan, beams, run, pieces, arcs)) continue;
@@ -98,6 +130,7 @@ void ArcFinder::find(const scan::Scan& scan, const BeamArray& beams, std::vector
 bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const Run& run,
                          std::vector<Piece>& pieces, std::vector<geometry::Arc>& arcs) {
   if (run.size() < static_cast<std::size_t>(config_.min_arc_beams)) return false;
+  if (!bends(beams, run)) return false;
   observe(scan, beams, run);
   const auto fit = fitting::fitArc(observations_, config_.gate);
   if (!fit || !isPlausible(*fit) || !isLikelier(*fit, beams, run, pieces)) return false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "sightline/lines/beam_residuals.h"
 #include "sightline/lines/chi_square.h"
@@ -29,6 +30,8 @@ void ArcRuns::assign(const BeamArray& beams, const std::vector<Piece>& pieces) {
   const bool circle = beams.size > beams.round;
   begin_ = circle && !pieces.empty() ? pieces.front().first : 0;
   owners_.assign(beams.round, Owner::kNone);
+  runs_.reserve(beams.round);
+  loose_runs_.reserve(beams.round);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Owner owner = judge(pieces, i);
     if (owner != Owner::kNone) setOwner(pieces[i], owner);
@@ -63,13 +66,22 @@ bool ArcRuns::mayBeChords(const Piece& before, const Piece& after) const {
 
 // Returns off the line are on something else, unless they are few.
 void ArcRuns::setOwner(const Piece& piece, Owner owner) {
-  const bool whole = static_cast<double>(piece.size()) - piece.beams < config_.min_arc_beams;
+  if (static_cast<double>(piece.size()) - piece.beams < config_.min_arc_beams) {
+    return setOwner(piece.first, piece.end, owner);
+  }
   const auto gate_squared = static_cast<float>(config_.gate * config_.gate);
   for (std::size_t i = piece.first; i < piece.end; ++i) {
-    if (whole || isWithin(*beams_, i, piece.line, gate_squared)) {
-      owners_[i % owners_.size()] = owner;
-    }
+    if (isWithin(*beams_, i, piece.line, gate_squared)) setOwner(i, i + 1, owner);
   }
+}
+
+void ArcRuns::setOwner(std::size_t first, std::size_t end, Owner owner) {
+  const std::size_t round = owners_.size();
+  const std::size_t begin = first % round;
+  const std::size_t count = std::min(end - first, round);
+  const std::size_t before_seam = std::min(count, round - begin);
+  std::memset(owners_.data() + begin, static_cast<int>(owner), before_seam);
+  std::memset(owners_.data(), static_cast<int>(owner), count - before_seam);
 }
 
 const std::vector<Run>& ArcRuns::withDoubtfulWalls() {
@@ -96,6 +108,7 @@ void ArcRuns::findRuns(std::size_t first, std::size_t end, Owner most,
   for (std::size_t i = first; i < end; ++i) {
     if (ownerOf(i) > most) {
       open = false;
+      i = skipWalls(i, end) - 1;
     } else if (open && !isJump(i - 1, i)) {
       runs.back().end = i + 1;
     } else {
@@ -103,6 +116,20 @@ void ArcRuns::findRuns(std::size_t first, std::size_t end, Owner most,
       open = true;
     }
   }
+}
+
+// The first return from `first` on that may be on something else: walls are long, so eight at once.
+std::size_t ArcRuns::skipWalls(std::size_t first, std::size_t end) const {
+  constexpr std::uint64_t kAllWall = 0x0101010101010101 * static_cast<std::uint64_t>(Owner::kWall);
+  const std::size_t round = owners_.size();
+  std::size_t i = first + 1;
+  while (i + sizeof(kAllWall) <= end && i % round + sizeof(kAllWall) <= round) {
+    std::uint64_t owners;
+    std::memcpy(&owners, owners_.data() + i % round, sizeof(owners));
+    if (owners != kAllWall) break;
+    i += sizeof(owners);
+  }
+  return i;
 }
 
 // From one beam to the next, s apart across the beams, the surface of a circle recedes by no more

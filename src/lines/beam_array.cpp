@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "sightline/lines/packet.h"
+
 namespace sightline::lines {
 
 void BeamArray::assign(const scan::Scan& scan, std::size_t first_beam) {
   const bool circle = scan.geometry->isFullCircle();
   reserve((circle ? 2 : 1) * scan.beams());
+  takeDirections(scan.geometry);
   size = 0;
   appendValid(scan, circle ? first_beam : 0, scan.beams(), 0);
   if (circle) appendValid(scan, 0, first_beam, scan.beams());
@@ -37,6 +40,7 @@ void BeamArray::appendValid(const scan::Scan& scan, std::size_t first, std::size
   }
 }
 
+SIGHTLINE_VECTOR_CLONES
 void BeamArray::appendRun(const scan::Scan& scan, std::size_t first, std::size_t end,
                           std::size_t shift) {
   if (scan.sensor_motion.empty()) {
@@ -50,32 +54,43 @@ void BeamArray::appendRun(const scan::Scan& scan, std::size_t first, std::size_t
   float* across = across_variance.data() + size;
   std::uint32_t* index = beam.data() + size;
   const auto offset = static_cast<std::uint32_t>(first + shift);
-  const double angular = scan.angular_variance;
-  const double transverse = scan.transverse_variance;
-  const std::size_t count = end - first;
-  for (std::size_t i = 0; i < count; ++i) {
-    along[i] = static_cast<float>(variances[i]);
-    across[i] = static_cast<float>(ranges[i] * ranges[i] * angular + transverse);
-    index[i] = offset + static_cast<std::uint32_t>(i);
+  const auto count = static_cast<std::uint32_t>(end - first);
+  for (std::uint32_t i = 0; i < count; ++i) along[i] = static_cast<float>(variances[i]);
+  for (std::uint32_t i = 0; i < count; ++i) index[i] = offset + i;
+  const auto transverse = static_cast<float>(scan.transverse_variance);
+  std::fill_n(across, count, transverse);
+  if (scan.angular_variance > 0.0) {
+    const auto angular = static_cast<float>(scan.angular_variance);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto range = static_cast<float>(ranges[i]);
+      across[i] += range * range * angular;
+    }
   }
   size += count;
 }
 
+SIGHTLINE_VECTOR_CLONES
 void BeamArray::place(const scan::Scan& scan, std::size_t first, std::size_t end) {
+  const std::size_t count = end - first;
   const double* ranges = scan.ranges.data() + first;
-  const double* cosines = scan.geometry->cosines().data() + first;
-  const double* sines = scan.geometry->sines().data() + first;
+  const float* cosines = cosines_.data() + first;
+  const float* sines = sines_.data() + first;
   float* px = x.data() + size;
   float* py = y.data() + size;
-  float* dx = direction_x.data() + size;
-  float* dy = direction_y.data() + size;
-  const std::size_t count = end - first;
   for (std::size_t i = 0; i < count; ++i) {
-    px[i] = static_cast<float>(ranges[i] * cosines[i]);
-    py[i] = static_cast<float>(ranges[i] * sines[i]);
-    dx[i] = static_cast<float>(cosines[i]);
-    dy[i] = static_cast<float>(sines[i]);
+    const auto range = static_cast<float>(ranges[i]);
+    px[i] = range * cosines[i];
+    py[i] = range * sines[i];
   }
+  std::copy_n(cosines, count, direction_x.data() + size);
+  std::copy_n(sines, count, direction_y.data() + size);
+}
+
+void BeamArray::takeDirections(const std::shared_ptr<const scan::ScanGeometry>& geometry) {
+  if (geometry == geometry_) return;
+  geometry_ = geometry;
+  cosines_.assign(geometry->cosines().begin(), geometry->cosines().end());
+  sines_.assign(geometry->sines().begin(), geometry->sines().end());
 }
 
 void BeamArray::placeMoved(const scan::Scan& scan, std::size_t first, std::size_t end) {

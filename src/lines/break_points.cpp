@@ -33,8 +33,12 @@ bool BreakPoints::isOn(const LineEstimate& line, std::size_t i) const {
 }
 
 void BreakPoints::extendForward(Piece& piece, std::size_t limit) const {
+  extendForward(piece, piece.end, limit);
+}
+
+void BreakPoints::extendForward(Piece& piece, std::size_t from, std::size_t limit) const {
   double position = positionOn(beams_, piece.end - 1, piece.line);
-  for (std::size_t i = piece.end; i < limit; ++i) {
+  for (std::size_t i = from; i < limit; ++i) {
     const double length = positionOn(beams_, i, piece.line) - position;
     if (!gap_.mayBridge(beams_, piece.end - 1, i, length)) return;
     const bool adjoins = i == piece.end;
@@ -46,8 +50,12 @@ void BreakPoints::extendForward(Piece& piece, std::size_t limit) const {
 }
 
 void BreakPoints::extendBackward(Piece& piece, std::size_t limit) const {
+  extendBackward(piece, piece.first, limit);
+}
+
+void BreakPoints::extendBackward(Piece& piece, std::size_t from, std::size_t limit) const {
   double position = positionOn(beams_, piece.first, piece.line);
-  for (std::size_t i = piece.first; i-- > limit;) {
+  for (std::size_t i = from; i-- > limit;) {
     const double length = positionOn(beams_, i, piece.line) - position;
     if (!gap_.mayBridge(beams_, i, piece.first, length)) return;
     const bool adjoins = i + 1 == piece.first;
@@ -76,6 +84,7 @@ void BreakPoints::separate(Piece& before, Piece& after) const {
   extendBackward(after, best);
 }
 
+SIGHTLINE_VECTOR_CLONES
 BreakPoints::Break BreakPoints::bestBreak(const LineEstimate& before, const LineEstimate& after,
                                           std::size_t low, std::size_t high) const {
   double difference = 0.0;  // to a break at `low`
@@ -105,6 +114,7 @@ bool BreakPoints::adjoin(const Piece& before, const Piece& after, const LineEsti
 
 // Whether each return, by itself, is close enough to one line or the other. Mostly the first few
 // tell.
+SIGHTLINE_VECTOR_CLONES
 bool BreakPoints::mayExplain(const LineEstimate& before, const LineEstimate& after,
                              const Piece& piece, double limit) const {
   double cost = 0.0;

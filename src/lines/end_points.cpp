@@ -91,7 +91,7 @@ bool EndPoints::areNeighbours(std::size_t i, std::size_t k) const {
 
 double EndPoints::spacingAt(const Piece& piece, std::size_t i) const {
   const std::size_t inner = i == piece.first ? i + 1 : i - 1;
-  return std::abs(positionOn(beams_, inner, piece.line) - positionOn(beams_, i, piece.line));
+  return std::hypot(beams_.x[inner] - beams_.x[i], beams_.y[inner] - beams_.y[i]);
 }
 
 EndPoint EndPoints::edge(const Piece& piece, std::size_t last, Side side) const {

@@ -12,6 +12,9 @@ namespace sightline::lines {
 
 namespace {
 
+// Pieces that something small in front of a wall falls into, at most.
+constexpr std::size_t kMostHiding = 4;
+
 Piece shifted(const Piece& piece, std::size_t round) {
   Piece result = piece;
   for (std::size_t* index :
@@ -39,17 +42,27 @@ LineExtractor::LineExtractor(const LineExtractorConfig& config)
 }
 
 const std::vector<geometry::LineSegment>& LineExtractor::extract(const scan::Scan& scan) {
-  pieces_.clear();
-  segments_.clear();
-  arcs_.clear();
+  reserve(scan.beams());
   findPieces(scan);
   dropFragments();
   placeBreaks();
   refinePieces();
+  extendBehindSmallThings();
   mergePieces();
+  dropHidden();
   arc_finder_.find(scan, beams_, pieces_, arcs_);
   report(scan);
   return segments_;
+}
+
+// As much as there can be, so that no later scan of the size needs more.
+void LineExtractor::reserve(std::size_t beams) {
+  pieces_.clear();
+  segments_.clear();
+  arcs_.clear();
+  pieces_.reserve(beams / LineFilter::kFewestToStart + 1);
+  segments_.reserve(beams / static_cast<std::size_t>(config_.min_beams) + 1);
+  arcs_.reserve(beams / static_cast<std::size_t>(config_.min_arc_beams) + 1);
 }
 
 void LineExtractor::findPieces(const scan::Scan& scan) {
@@ -123,11 +136,9 @@ void LineExtractor::mergePieces() {
   const Merging merging(beams_, config_);
   std::size_t kept = 0;
   for (std::size_t i = 1; i < pieces_.size(); ++i) {
-    if (merging.merge(pieces_[kept], pieces_[i])) continue;
-    // A wall may go on behind something small.
-    const bool hides = i + 1 < pieces_.size() && extent(beams_, pieces_[i]) < config_.min_length;
-    if (hides && merging.merge(pieces_[kept], pieces_[i + 1])) {
-      ++i;
+    const std::size_t merged = mergeWithOneFrom(i, merging, pieces_[kept]);
+    if (merged < pieces_.size()) {
+      i = merged;
     } else {
       pieces_[++kept] = pieces_[i];
     }
@@ -137,6 +148,49 @@ void LineExtractor::mergePieces() {
       merging.merge(pieces_.back(), shifted(pieces_.front(), beams_.round))) {
     pieces_.erase(pieces_.begin());
   }
+}
+
+// A wall may go on behind small things. Answers which piece it goes on with.
+std::size_t LineExtractor::mergeWithOneFrom(std::size_t first, const Merging& merging,
+                                            Piece& wall) const {
+  for (std::size_t i = first; i < std::min(first + kMostHiding + 1, pieces_.size()); ++i) {
+    if (merging.merge(wall, pieces_[i])) return i;
+    if (extent(beams_, pieces_[i]) >= config_.min_length) break;
+  }
+  return pieces_.size();
+}
+
+// Too few of a wall's returns may be left there for a piece of their own.
+void LineExtractor::extendBehindSmallThings() {
+  const BreakPoints breaks(beams_, config_);
+  const std::size_t count = pieces_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Piece& piece = pieces_[i];
+    if (!isWall(piece, config_) || 2.0 * extent(beams_, piece) < config_.min_length) continue;
+    if (i > 0 && isSmall(pieces_[i - 1])) {
+      const std::size_t limit = i > 1 ? pieces_[i - 2].end : 0;
+      breaks.extendBackward(piece, pieces_[i - 1].first, limit);
+    }
+    if (i + 1 < count && isSmall(pieces_[i + 1])) {
+      const std::size_t limit = i + 2 < count ? pieces_[i + 2].first : beams_.size;
+      breaks.extendForward(piece, pieces_[i + 1].end, limit);
+    }
+  }
+  refinePieces();
+}
+
+bool LineExtractor::isSmall(const Piece& piece) const {
+  return piece.beams < config_.min_beams || extent(beams_, piece) < config_.min_length;
+}
+
+// What stands in front of a wall that goes on behind it is no neighbour of it.
+void LineExtractor::dropHidden() {
+  const auto isHidden = [&](const Piece& piece) {
+    return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& other) {
+      return other.first < piece.first && piece.end < other.end;
+    });
+  };
+  pieces_.erase(std::remove_if(pieces_.begin(), pieces_.end(), isHidden), pieces_.end());
 }
 
 void LineExtractor::report(const scan::Scan& scan) {

@@ -10,7 +10,6 @@ namespace sightline::lines {
 
 namespace {
 
-constexpr std::size_t kFewestToStart = 5;
 constexpr std::size_t kMostToStart = 64;
 // Standard deviation of the direction up to which an update is linear [rad].
 constexpr double kGrownUp = 0.02;
@@ -160,6 +159,7 @@ const Piece& LineFilter::follow(std::size_t end) {
 }
 
 // Many at once, as long as all goes well.
+SIGHTLINE_VECTOR_CLONES
 std::size_t LineFilter::takeStride(std::size_t next, std::size_t end) {
   const std::size_t stride = strideLength();
   const std::size_t stop = next + stride;
@@ -186,6 +186,7 @@ std::size_t LineFilter::strideLength() const {
   return std::min(length / kBlock * kBlock, kLongestStride);
 }
 
+SIGHTLINE_VECTOR_CLONES
 std::size_t LineFilter::takeSome(std::size_t next, std::size_t end) {
   const Validation validation = validate(next);
   const std::size_t block = std::min(kBlock, end - next);
@@ -204,6 +205,7 @@ std::size_t LineFilter::takeSome(std::size_t next, std::size_t end) {
   return count;
 }
 
+SIGHTLINE_VECTOR_CLONES
 LineFilter::Validation LineFilter::validate(std::size_t first) const {
   const Gate gate(piece_.line, gate_squared_);
   Validation validation;

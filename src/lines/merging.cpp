@@ -15,23 +15,48 @@ double twoDofLimit(double sigmas) {
   return -2.0 * std::log(std::erfc(sigmas / std::sqrt(2.0)));
 }
 
+// Of two lines in (ρ, φ), and the information about either, seen from a place on the first.
+struct Difference {
+  Difference(const LineEstimate& before, const LineEstimate& after, double position) {
+    const double x = before.rho * before.normal_x + position * before.alongX();
+    const double y = before.rho * before.normal_y + position * before.alongY();
+    rho = after.rho - after.normal_x * x - after.normal_y * y;
+    phi = before.normal_x * after.normal_y - before.normal_y * after.normal_x;
+    of_before = before.information.shifted(position);
+    of_after = after.information.shifted(after.alongX() * x + after.alongY() * y);
+  }
+
+  double rho;
+  double phi;
+  Information of_before;
+  Information of_after;
+};
+
+// What the second line says of the first: a Kalman update with a line for the observation.
+NormalEquations fusion(const LineEstimate& before, const LineEstimate& after, double position) {
+  const Difference d(before, after, position);
+  NormalEquations both;
+  both.gradient_rho = -(d.of_after.rho_rho * d.rho + d.of_after.rho_phi * d.phi);
+  both.gradient_phi =
+      -(d.of_after.rho_phi * d.rho + d.of_after.phi_phi * d.phi) - position * both.gradient_rho;
+  both.information = d.of_before;
+  both.information += d.of_after;
+  both.information = both.information.shifted(-position);
+  return both;
+}
+
 }  // namespace
 
 double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after, double position) {
-  const double origin_x = before.rho * before.normal_x + position * before.alongX();
-  const double origin_y = before.rho * before.normal_y + position * before.alongY();
-  const double rho = after.rho - after.normal_x * origin_x - after.normal_y * origin_y;
-  const double phi = before.normal_x * after.normal_y - before.normal_y * after.normal_x;
-  const Information a = before.information.shifted(position);
-  const Information b =
-      after.information.shifted(after.alongX() * origin_x + after.alongY() * origin_y);
-  const double da = 1.0 / a.determinant();
-  const double db = 1.0 / b.determinant();
-  const double rho_rho = da * a.phi_phi + db * b.phi_phi;
-  const double rho_phi = -da * a.rho_phi - db * b.rho_phi;
-  const double phi_phi = da * a.rho_rho + db * b.rho_rho;
+  const Difference d(before, after, position);
+  const double da = 1.0 / d.of_before.determinant();
+  const double db = 1.0 / d.of_after.determinant();
+  const double rho_rho = da * d.of_before.phi_phi + db * d.of_after.phi_phi;
+  const double rho_phi = -da * d.of_before.rho_phi - db * d.of_after.rho_phi;
+  const double phi_phi = da * d.of_before.rho_rho + db * d.of_after.rho_rho;
   const double determinant = rho_rho * phi_phi - rho_phi * rho_phi;
-  return (phi_phi * rho * rho - 2.0 * rho_phi * rho * phi + rho_rho * phi * phi) / determinant;
+  return (phi_phi * d.rho * d.rho - 2.0 * rho_phi * d.rho * d.phi + rho_rho * d.phi * d.phi) /
+         determinant;
 }
 
 Merging::Merging(const BeamArray& beams, const LineExtractorConfig& config)
@@ -47,17 +72,12 @@ bool Merging::merge(Piece& before, const Piece& after) const {
   const double position = positionOn(beams_, before.end - 1, line);
   const double next_position = positionOn(beams_, after.first, line);
   if (!gap_.mayBridge(beams_, before.end - 1, after.first, next_position - position)) return false;
-  if (mahalanobisSquared(line, after.line, 0.5 * (position + next_position)) > distance_limit_) {
-    return false;
-  }
+  const double between = 0.5 * (position + next_position);
+  if (mahalanobisSquared(line, after.line, between) > distance_limit_) return false;
   Piece joined = before;
   joined.end = after.end;
   joined.beams = 0.0;  // to be refined in full
-  if (after.beams > before.beams) joined.line = after.line;
-  constexpr double kEverything = 1e12;
-  NormalEquations both = linearise(beams_, before.first, before.end, joined.line, kEverything);
-  both += linearise(beams_, after.first, after.end, joined.line, kEverything);
-  stepTo(both, joined.line);
+  stepTo(fusion(line, after.line, between), joined.line);
   if (!refine(beams_, gate_ * gate_, joined)) return false;
   if (joined.chi_square > chiSquareLimit(gate_, joined.beams - 2.0) * misfit_ * misfit_)
     return false;

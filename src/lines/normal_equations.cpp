@@ -24,6 +24,7 @@ NormalEquations& NormalEquations::operator-=(const NormalEquations& other) {
   return *this;
 }
 
+SIGHTLINE_VECTOR_CLONES
 NormalEquations linearise(const BeamArray& beams, std::size_t first, std::size_t end,
                           const LineEstimate& line, double gate_squared) {
   if (first >= end) return {};

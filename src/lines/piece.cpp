@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sightline/lines/beam_residuals.h"
 #include "sightline/lines/chi_square.h"
 #include "sightline/lines/normal_equations.h"
 
@@ -79,8 +78,9 @@ bool isWall(const Piece& piece, const LineExtractorConfig& config) {
 }
 
 double extent(const BeamArray& beams, const Piece& piece) {
-  return std::abs(positionOn(beams, piece.end - 1, piece.line) -
-                  positionOn(beams, piece.first, piece.line));
+  const std::size_t last = piece.end - 1;
+  return std::abs(piece.line.alongX() * static_cast<double>(beams.x[last] - beams.x[piece.first]) +
+                  piece.line.alongY() * static_cast<double>(beams.y[last] - beams.y[piece.first]));
 }
 
 }  // namespace sightline::lines

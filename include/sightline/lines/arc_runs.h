@@ -44,7 +44,9 @@ class ArcRuns {
   bool isChord(const std::vector<Piece>& pieces, std::size_t i) const;
   bool mayBeChords(const Piece& before, const Piece& after) const;
   void setOwner(const Piece& piece, Owner owner);
+  void setOwner(std::size_t first, std::size_t end, Owner owner);
   void findRuns(std::size_t first, std::size_t end, Owner most, std::vector<Run>& runs) const;
+  std::size_t skipWalls(std::size_t first, std::size_t end) const;
   bool isJump(std::size_t from, std::size_t to) const;
 
   LineExtractorConfig config_;

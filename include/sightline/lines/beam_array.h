@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sightline/scan/scan.h"
@@ -30,12 +31,16 @@ struct BeamArray {
 
  private:
   void reserve(std::size_t returns);
+  void takeDirections(const std::shared_ptr<const scan::ScanGeometry>& geometry);
   void appendValid(const scan::Scan& scan, std::size_t first, std::size_t end, std::size_t shift);
   void appendRun(const scan::Scan& scan, std::size_t first, std::size_t end, std::size_t shift);
   void place(const scan::Scan& scan, std::size_t first, std::size_t end);
   void placeMoved(const scan::Scan& scan, std::size_t first, std::size_t end);
   void repeatRound(std::size_t beams);
   void pad();
+
+  std::shared_ptr<const scan::ScanGeometry> geometry_;
+  std::vector<float> cosines_, sines_;  // of its beams
 };
 
 }  // namespace sightline::lines

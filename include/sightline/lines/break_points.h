@@ -17,6 +17,9 @@ class BreakPoints {
   /// a row are needed past a stray one.
   void extendForward(Piece& piece, std::size_t limit) const;
   void extendBackward(Piece& piece, std::size_t limit) const;
+  /// The same, but nothing before `from` (from there on) is looked at: something else is there.
+  void extendForward(Piece& piece, std::size_t from, std::size_t limit) const;
+  void extendBackward(Piece& piece, std::size_t from, std::size_t limit) const;
   /// Takes returns off the ends that are not within the gate.
   void trim(Piece& piece) const;
   /// Puts the break between two pieces where their lines together explain the returns best.

@@ -8,6 +8,7 @@
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/end_points.h"
 #include "sightline/lines/line_extractor_config.h"
+#include "sightline/lines/merging.h"
 #include "sightline/lines/piece.h"
 #include "sightline/scan/scan.h"
 
@@ -32,12 +33,17 @@ class LineExtractor {
   const std::vector<geometry::Arc>& arcs() const { return arcs_; }
 
  private:
+  void reserve(std::size_t beams);
   void findPieces(const scan::Scan& scan);
   std::size_t findPiecesIn(std::size_t first, std::size_t end, std::size_t most);
   void refinePieces();
   void dropFragments();
   void mergePieces();
+  std::size_t mergeWithOneFrom(std::size_t first, const Merging& merging, Piece& wall) const;
   void placeBreaks();
+  void extendBehindSmallThings();
+  bool isSmall(const Piece& piece) const;
+  void dropHidden();
   void report(const scan::Scan& scan);
   bool isLong(const Piece& piece, const EndPoint& start, const EndPoint& end) const;
   geometry::LineSegment segmentOf(const Piece& piece, const EndPoint& start, const EndPoint& end,

@@ -21,6 +21,8 @@ namespace sightline::lines {
 /// several at once against one prediction and taken in one update.
 class LineFilter {
  public:
+  static constexpr std::size_t kFewestToStart = 5;
+
   LineFilter(const BeamArray& beams, const LineExtractorConfig& config);
 
   /// Batch start (section 4.6) with the returns from `first` on, as many as the direction needs.

@@ -44,6 +44,7 @@ struct LineErrors {
     nees += squared;
     if (squared <= kGate95) ++in_gate;
   }
+  double meanNees() const { return nees / static_cast<double>(rho_mm.size()); }
   double share() const {
     return 100.0 * static_cast<double>(in_gate) / static_cast<double>(rho_mm.size());
   }
@@ -96,12 +97,16 @@ struct Score {
     return matched;
   }
 
+  double foundPercent() const {
+    return 100.0 * static_cast<double>(found) / static_cast<double>(wanted);
+  }
+
   void printFigures(const std::string& scenario) const {
     const std::string name = "lines." + scenario + ".";
     const auto n = static_cast<double>(wanted);
     const auto tp = static_cast<double>(found);
     print(name + "f1", 2.0 * tp / (tp + n + static_cast<double>(excess)), "1");
-    print(name + "found", 100.0 * tp / n, "%");
+    print(name + "found", foundPercent(), "%");
     print(name + "false", static_cast<double>(excess), "segments");
     print(name + "fragmented", 100.0 * static_cast<double>(fragmented) / n, "%");
     printErrors(name, errors);

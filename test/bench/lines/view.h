@@ -25,6 +25,7 @@ struct VisibleSpan {
 struct View {
   scan::Scan scan;
   std::vector<VisibleSpan> spans;
+  std::vector<std::size_t> beams_on_disc;  ///< valid ones
 };
 
 /// How a scan is taken.
@@ -50,6 +51,7 @@ class Viewer {
     const auto count = static_cast<int>(world_.walls.size());
     for (int wall = 0; wall < count; ++wall) addSpans(wall, view);
     for (VisibleSpan& span : view.spans) joinFloorCorners(span, view.spans);
+    countDiscBeams(view);
     return view;
   }
 
@@ -120,6 +122,14 @@ class Viewer {
       last = i;
     }
     if (first >= 0) addSpan(wall, first, last, view);
+  }
+  void countDiscBeams(View& view) const {
+    view.beams_on_disc.assign(world_.discs.size(), 0);
+    const auto walls = static_cast<int>(world_.walls.size());
+    for (std::size_t i = 0; i < hits_.size(); ++i) {
+      if (hits_[i].what < walls || !view.scan.isValid(i)) continue;
+      ++view.beams_on_disc[static_cast<std::size_t>(hits_[i].what - walls)];
+    }
   }
   const Hit& hit(long beam) const { return hits_[static_cast<std::size_t>(beam) % sensor_.beams]; }
   bool isInterrupted(int wall, long last, long next) const {

@@ -104,6 +104,34 @@ inline PlaneWorld roomWithDoor() {
   return world;
 }
 
+/// Eight round legs, 5 to 20 cm in radius, anywhere half a metre from the sensor and clear of
+/// walls, boxes and each other.
+inline PlaneWorld roomWithLegs(const geometry::Pose2& sensor, std::mt19937& random) {
+  PlaneWorld world = roomWithBoxes();
+  std::uniform_real_distribution<double> radius(0.05, 0.20);
+  std::uniform_real_distribution<double> x(0.0, 8.6);
+  std::uniform_real_distribution<double> y(0.0, 5.0);
+  constexpr double kClear = 0.3;
+  const auto isClear = [&](const Disc& disc) {
+    if ((disc.centre - sensor.translation()).norm() < disc.radius + 0.5) return false;
+    for (const auto& wall : world.walls) {
+      if (wall.distance(disc.centre) < disc.radius + kClear) return false;
+    }
+    for (const auto& centre : boxCentres()) {
+      if ((disc.centre - centre).norm() < disc.radius + 0.6 + kClear) return false;
+    }
+    for (const Disc& other : world.discs) {
+      if ((disc.centre - other.centre).norm() < disc.radius + other.radius + kClear) return false;
+    }
+    return true;
+  };
+  while (world.discs.size() < 8) {
+    const Disc disc{{x(random), y(random)}, radius(random)};
+    if (isClear(disc)) world.discs.push_back(disc);
+  }
+  return world;
+}
+
 /// A place for the sensor: at least 0.3 m from the walls of the room and 1.1 m from the boxes'
 /// centres.
 inline geometry::Pose2 randomPose(std::mt19937& random) {
