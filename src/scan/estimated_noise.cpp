@@ -1,8 +1,8 @@
 #include "sightline/scan/estimated_noise.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+
+#include <Eigen/Cholesky>
 
 namespace sightline::scan {
 
@@ -19,26 +19,22 @@ constexpr std::size_t kMostGroups = 8;
 // Hilferty 1931).
 constexpr double kRoot = 1.0 - 2.0 / (9.0 * (kReturns - 2.0));
 constexpr double kMedian = kRoot * kRoot * kRoot;
-// Closer to parallel than this sine, squared, a beam tells nothing of its range.
-constexpr double kLeastIncidence = 0.05;
-
-// Along the beams, of a run about the line that fits it best.
-std::optional<NoiseAtRange> noiseOfRun(const Scan& scan, std::size_t first) {
-  const Eigen::Vector2d origin = scan.point(first);
-  Eigen::Vector2d sum(0, 0);
+// Along the beams, of a run about the line that fits it best: 1/r = n·d/ρ is linear in the
+// direction d, with the noise of r over r².
+NoiseAtRange noiseOfRun(const Scan& scan, std::size_t first) {
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d products(0, 0);
+  double sum = 0.0;
   for (std::size_t i = first; i < first + kRun; ++i) {
-    const Eigen::Vector2d p = scan.point(i) - origin;
-    sum += p;
-    squares += p * p.transpose();
+    const double range = scan.ranges[i];
+    const Eigen::Vector2d row =
+        range * range * Eigen::Vector2d(scan.geometry->cosines()[i], scan.geometry->sines()[i]);
+    squares += row * row.transpose();
+    products += row * range;
+    sum += range * range;
   }
-  const Eigen::Matrix2d scatter = squares - sum * sum.transpose() / kReturns;
-  const double along = 0.5 * std::atan2(2.0 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
-  const Eigen::Vector2d normal(-std::sin(along), std::cos(along));
-  const double facing = normal.dot(scan.direction(first + kRun / 2));
-  if (facing * facing < kLeastIncidence) return std::nullopt;
-  return NoiseAtRange{scan.ranges[first + kRun / 2],
-                      normal.dot(scatter * normal) / (kReturns - 2.0) / (facing * facing)};
+  const double left = sum - products.dot(squares.ldlt().solve(products));
+  return {scan.ranges[first + kRun / 2], std::max(0.0, left) / (kReturns - 2.0)};
 }
 
 std::vector<NoiseAtRange> noiseOfRuns(const Scan& scan) {
@@ -48,7 +44,7 @@ std::vector<NoiseAtRange> noiseOfRuns(const Scan& scan) {
     valid = scan.isValid(i) ? valid + 1 : 0;
     if (valid < kRun) continue;
     valid = 0;
-    if (const auto noise = noiseOfRun(scan, i + 1 - kRun)) runs.push_back(*noise);
+    runs.push_back(noiseOfRun(scan, i + 1 - kRun));
   }
   return runs;
 }
