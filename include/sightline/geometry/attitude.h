@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sightline::geometry {
+
+/// How a body leans, whatever its heading: turned about its x axis, then about the y axis of the
+/// level frame that shares its heading [rad]. Positive pitch looks down, positive roll leans right.
+struct Attitude {
+  double roll = 0.0;
+  double pitch = 0.0;
+
+  /// R_level_body: takes vectors of the body to the level frame with its heading.
+  Eigen::Matrix3d rotation() const;
+};
+
+}  // namespace sightline::geometry
