@@ -1,0 +1,150 @@
+#include "sightline/dead_reckoning/surface_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sightline::dead_reckoning {
+
+namespace {
+
+using geometry::Pose2;
+
+// A surface is fitted over this length to either side, or over so many beams [m].
+constexpr double kHalfLength = 0.15;
+constexpr std::size_t kMinHalf = 3;
+constexpr std::size_t kMaxHalf = 12;
+// Neighbours further apart than a surface seen at 5 degrees would have them are on two surfaces.
+constexpr double kGrazing = 0.087;
+constexpr double kStep = 0.05;  // [m]
+// What a surface may leave of its points and still be straight [m].
+constexpr double kStraight = 0.02;
+
+Eigen::Vector2d sensorPoint(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor,
+                            const Eigen::Vector3d& twist) {
+  const double offset = scan.geometry->timeOffsets()[beam];
+  const Eigen::Vector2d still = T_base_sensor * scan.point(beam);
+  if (!scan.sensor_motion.empty() || offset == 0.0 || twist.isZero()) return still;
+  return Pose2::exp(offset * twist) * still;
+}
+
+// Sums over points 0 .. i-1, so that those of any stretch are a difference.
+struct Sums {
+  double x = 0.0;
+  double y = 0.0;
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+
+  Sums with(const Eigen::Vector2d& p) const {
+    return {x + p.x(), y + p.y(), xx + p.x() * p.x(), xy + p.x() * p.y(), yy + p.y() * p.y()};
+  }
+  Sums operator-(const Sums& o) const {
+    return {x - o.x, y - o.y, xx - o.xx, xy - o.xy, yy - o.yy};
+  }
+};
+
+struct Line {
+  Eigen::Vector2d centre;
+  Eigen::Vector2d normal;
+  double mean_square;  // of the residuals
+};
+
+Line fit(const Sums& sums, std::size_t count) {
+  const double n = static_cast<double>(count);
+  const Eigen::Vector2d centre(sums.x / n, sums.y / n);
+  const double xx = sums.xx / n - centre.x() * centre.x();
+  const double yy = sums.yy / n - centre.y() * centre.y();
+  const double xy = sums.xy / n - centre.x() * centre.y();
+  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const double smaller = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy);
+  // Two parameters were taken from the points.
+  const double free = std::max(1.0, n - 2.0);
+  return {centre, {-std::sin(direction), std::cos(direction)}, std::max(0.0, smaller) * n / free};
+}
+
+class SurfaceFinder {
+ public:
+  SurfaceFinder(const Eigen::Vector2d& sensor, double beam_angle, std::vector<SurfacePoint>& points)
+      : sensor_(sensor), points_(points) {
+    const double widest = beam_angle / kGrazing;
+    sums_.reserve(points.size() + 1);
+    sums_.emplace_back();
+    first_.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      sums_.push_back(sums_.back().with(points[i].position));
+      const bool broken = i == 0 || gap(i) > kStep + widest * nearer(i);
+      first_.push_back(broken ? i : first_.back());
+    }
+  }
+
+  void find() {
+    std::size_t end = points_.size();
+    for (std::size_t i = points_.size(); i-- > 0;) {
+      find(i, first_[i], end);
+      if (first_[i] == i) end = i;
+    }
+  }
+
+ private:
+  double gap(std::size_t i) const { return (points_[i].position - points_[i - 1].position).norm(); }
+  double nearer(std::size_t i) const {
+    return std::min((points_[i].position - sensor_).norm(),
+                    (points_[i - 1].position - sensor_).norm());
+  }
+
+  // Of a point whose surface holds the points from `first` to before `end`.
+  void find(std::size_t i, std::size_t first, std::size_t end) {
+    SurfacePoint& point = points_[i];
+    if (end - first < kMinHalf) return;
+    const double before = i > first ? gap(i) : 0.0;
+    const double after = i + 1 < end ? gap(i + 1) : 0.0;
+    point.reach = std::max(before, after);
+    const auto wanted = static_cast<std::size_t>(kHalfLength / std::max(point.reach, 1e-3));
+    const std::size_t half = std::clamp(wanted, kMinHalf, kMaxHalf);
+    const std::size_t left = std::max(first, i - std::min(i, half));
+    const std::size_t right = std::min(end, i + half + 1);
+    Line best = fit(sums_[right] - sums_[left], right - left);
+    if (best.mean_square > kStraight * kStraight / 4.0) {
+      takeBetter(i, std::max(first, i - std::min(i, 2 * half)), i + 1, best);
+      takeBetter(i, i, std::min(end, i + 2 * half + 1), best);
+    }
+    if (best.mean_square > kStraight * kStraight) return;
+    const bool towards = best.normal.dot(sensor_ - point.position) > 0.0;
+    point.normal = towards ? best.normal : Eigen::Vector2d(-best.normal);
+    point.smoothed = point.position + best.normal.dot(best.centre - point.position) * best.normal;
+  }
+
+  void takeBetter(std::size_t, std::size_t left, std::size_t right, Line& best) const {
+    if (right - left <= kMinHalf) return;
+    const Line line = fit(sums_[right] - sums_[left], right - left);
+    if (line.mean_square < best.mean_square) best = line;
+  }
+
+  Eigen::Vector2d sensor_;
+  std::vector<SurfacePoint>& points_;
+  std::vector<Sums> sums_;
+  std::vector<std::size_t> first_;  // of the points on the same surface
+};
+
+}  // namespace
+
+void positionsOf(const scan::Scan& scan, const Pose2& T_base_sensor, const Eigen::Vector3d& twist,
+                 std::vector<SurfacePoint>& points) {
+  points.clear();
+  points.reserve(scan.beams());
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    if (!scan.isValid(i)) continue;
+    SurfacePoint point;
+    point.position = sensorPoint(scan, i, T_base_sensor, twist);
+    point.smoothed = point.position;
+    point.variance = scan.range_variances[i];
+    points.push_back(point);
+  }
+}
+
+void findSurfaces(const Eigen::Vector2d& sensor_base, double beam_angle,
+                  std::vector<SurfacePoint>& points) {
+  SurfaceFinder(sensor_base, beam_angle, points).find();
+}
+
+}  // namespace sightline::dead_reckoning

@@ -1,0 +1,25 @@
+#include "sightline/dead_reckoning/line_matcher.h"
+
+#include <gtest/gtest.h>
+
+namespace sightline::dead_reckoning {
+namespace {
+
+using geometry::Pose2;
+
+TEST(LineResidual, JacobianIsTheNumericDifference) {
+  const Surfel surfel{{2.0, 1.0}, Eigen::Vector2d(-0.6, 0.8), 0.05};
+  const Eigen::Vector2d point(1.3, -0.4);
+  const Pose2 pose(0.2, 0.5, 0.7);
+  const LineResidual residual = lineResidual(pose, point, surfel);
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
+    const double ahead = lineResidual(Pose2(pose.coordinates() + step), point, surfel).value;
+    const double back = lineResidual(Pose2(pose.coordinates() - step), point, surfel).value;
+    EXPECT_NEAR((ahead - back) / (2.0 * kStep), residual.jacobian[i], 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace sightline::dead_reckoning
