@@ -111,6 +111,8 @@ void DeadReckoner::Impl::reset(const Pose2& T_odom_base) {
 DeadReckoner::DeadReckoner(const DeadReckonerConfig& config)
     : impl_(std::make_unique<Impl>(config)) {}
 DeadReckoner::~DeadReckoner() = default;
+DeadReckoner::DeadReckoner(const DeadReckoner& other)
+    : impl_(std::make_unique<Impl>(*other.impl_)) {}
 DeadReckoner::DeadReckoner(DeadReckoner&&) noexcept = default;
 DeadReckoner& DeadReckoner::operator=(DeadReckoner&&) noexcept = default;
 

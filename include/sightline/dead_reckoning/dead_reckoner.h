@@ -55,6 +55,8 @@ class DeadReckoner {
   /// Throws config::Error if the configuration is out of range.
   explicit DeadReckoner(const DeadReckonerConfig& config);
   ~DeadReckoner();
+  /// A copy is a try: what it does with a scan can be kept or thrown away.
+  DeadReckoner(const DeadReckoner&);
   DeadReckoner(DeadReckoner&&) noexcept;
   DeadReckoner& operator=(DeadReckoner&&) noexcept;
 
