@@ -5,8 +5,9 @@
 
 #include <Eigen/LU>
 
-#include "sightline/dead_reckoning/line_matcher.h"
-#include "sightline/dead_reckoning/submap.h"
+#include "sightline/dead_reckoning/matcher.h"
+#include "sightline/dead_reckoning/motion_model.h"
+#include "sightline/dead_reckoning/submap_matcher.h"
 #include "sightline/dead_reckoning/surface_points.h"
 
 namespace sightline::dead_reckoning {
@@ -16,11 +17,29 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
+// The prior is never taken for more certain than this: rounding of a log or a message [m, rad].
+constexpr double kLeastSigma = 1e-4;
+// A sweep is corrected anew where the motion found moves its last beam by this much [m, rad].
+constexpr double kSweepPosition = 0.003;
+constexpr double kSweepHeading = 0.001;
+
+std::unique_ptr<Matcher> makeMatcher(const DeadReckonerConfig& config) {
+  return std::make_unique<SubmapMatcher>(config.submap);
+}
+
+UncertainPose2 bounded(UncertainPose2 step) {
+  step.covariance.diagonal().array() += kLeastSigma * kLeastSigma;
+  return step;
+}
+
 }  // namespace
 
 class DeadReckoner::Impl {
  public:
-  explicit Impl(const DeadReckonerConfig& config) : config_(config) { config::validate(config); }
+  explicit Impl(const DeadReckonerConfig& config) : config_(config) {
+    config::validate(config);
+    matcher_ = makeMatcher(config);
+  }
 
   std::optional<DeadReckoningUpdate> update(const scan::Scan& scan, const Pose2& T_base_sensor,
                                             const std::optional<MotionPrior>& prior);
@@ -28,91 +47,136 @@ class DeadReckoner::Impl {
   void restartClock() { stamp_.reset(); }
 
  private:
-  UncertainPose2 predictStep(const std::optional<MotionPrior>& prior, double elapsed) const;
-  void takeStep(const UncertainPose2& step, double elapsed);
-  bool isKeyframe() const;
+  MatchOutcome match(const scan::Scan& scan, const Pose2& T_base_sensor, const UncertainPose2& step,
+                     double elapsed);
+  void takeMatch(const MatchOutcome& outcome, const UncertainPose2& predicted_step, double elapsed,
+                 DeadReckoningUpdate& update);
+  void bridge(const UncertainPose2& step, double elapsed);
+  void learn(MatchState state);
+  UncertainPose2 pose() const;
 
   DeadReckonerConfig config_;
+  std::unique_ptr<Matcher> matcher_;
   std::optional<std::int64_t> stamp_;
-  UncertainPose2 pose_;
-  Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d twist_covariance_ = Eigen::Matrix3d::Zero();
-  Submap submap_;
-  Pose2 keyframe_;
-  std::vector<SurfacePoint> points_;
+  Pose2 T_odom_base_;
+  // The pose is known relative to the reference, that relative to odom.
+  UncertainPose2 T_odom_reference_;
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  // of T_odom_base_ about the reference
+  Twist twist_;
+  double bridged_ = 0.0;  // time since the last match [s]
+  Sweep sweep_;
 };
-
-UncertainPose2 DeadReckoner::Impl::predictStep(const std::optional<MotionPrior>& prior,
-                                               double elapsed) const {
-  if (prior) return {prior->T_before_now, prior->covariance};
-  const CarrierConfig& carrier = config_.carrier;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  const double position = carrier.acceleration * elapsed * elapsed;
-  const double heading = carrier.turn_acceleration * elapsed * elapsed;
-  covariance.diagonal() << position * position, position * position, heading * heading;
-  return {Pose2::exp(elapsed * twist_), covariance + elapsed * elapsed * twist_covariance_};
-}
-
-void DeadReckoner::Impl::takeStep(const UncertainPose2& step, double elapsed) {
-  pose_ = geometry::compose(pose_, step);
-  twist_ = step.mean.log() / elapsed;
-  twist_covariance_ = step.covariance / (elapsed * elapsed);
-}
-
-bool DeadReckoner::Impl::isKeyframe() const {
-  const Pose2 way = geometry::between(keyframe_, pose_.mean);
-  return submap_.empty() || way.translation().norm() > config_.submap.spacing ||
-         std::abs(way.theta()) > config_.submap.turn_spacing;
-}
 
 std::optional<DeadReckoningUpdate> DeadReckoner::Impl::update(
     const scan::Scan& scan, const Pose2& T_base_sensor, const std::optional<MotionPrior>& prior) {
   if (stamp_ && scan.stamp <= *stamp_) return std::nullopt;
   const double elapsed = stamp_ ? 1e-9 * static_cast<double>(scan.stamp - *stamp_) : 0.0;
   stamp_ = scan.stamp;
-  positionsOf(scan, T_base_sensor, twist_, points_);
-  findSurfaces(T_base_sensor.translation(), std::abs(scan.geometry->angleIncrement()), points_);
   DeadReckoningUpdate update;
   update.stamp = scan.stamp;
-  update.beams = points_.size();
-  if (!submap_.empty() && elapsed > 0.0) {
-    UncertainPose2 step = predictStep(prior, elapsed);
-    const Pose2 predicted = pose_.mean * step.mean;
-    const Eigen::Matrix3d turn = geometry::composeJacobianSecond(pose_.mean);
-    const PosePrior belief{predicted, (turn * step.covariance * turn.transpose()).inverse()};
-    const LineMatch match =
-        matchLines(points_, submap_, predicted, belief, config_.submap.surface_sigma, 0.2);
-    update.inliers = match.inliers;
-    update.state =
-        match.inliers > config_.submap.min_inliers ? MatchState::kMatched : MatchState::kFailed;
-    const Eigen::Matrix3d covariance = (match.information + belief.information).inverse();
-    step = {geometry::between(pose_.mean, match.T_odom_base), turn.transpose() * covariance * turn};
-    takeStep(step, elapsed);
-    update.step = step;
+  if (elapsed == 0.0 || elapsed > config_.max_gap) matcher_->clear();
+  if (!matcher_->hasReference()) {
+    sweep_ = readSweep(scan, T_base_sensor, twist_.mean);
+  } else {
+    const UncertainPose2 step =
+        bounded(prior ? UncertainPose2{prior->T_before_now, prior->covariance}
+                      : predictStep(config_.carrier, twist_, elapsed));
+    takeMatch(match(scan, T_base_sensor, step, elapsed), step, elapsed, update);
   }
-  if (isKeyframe()) {
-    submap_.add(pose_.mean, points_, static_cast<std::size_t>(config_.submap.keyframes));
-    keyframe_ = pose_.mean;
-  }
-  update.pose = pose_;
-  update.twist = twist_;
-  update.twist_covariance = twist_covariance_;
+  learn(update.state);
+  update.beams = sweep_.points.size();
+  update.pose = pose();
+  update.twist = twist_.mean;
+  update.twist_covariance = twist_.covariance;
   return update;
+}
+
+MatchOutcome DeadReckoner::Impl::match(const scan::Scan& scan, const Pose2& T_base_sensor,
+                                       const UncertainPose2& step, double elapsed) {
+  const UncertainPose2 prior = geometry::compose({T_odom_base_, covariance_}, step);
+  const SearchWindow window = windowOf(config_.carrier, prior, elapsed + bridged_);
+  const Eigen::Vector3d predicted = step.mean.log() / elapsed;
+  sweep_ = readSweep(scan, T_base_sensor, predicted);
+  MatchOutcome outcome = matcher_->match(sweep_, prior, window);
+  const double duration = scan.geometry->timeOffsets().back();
+  if (duration == 0.0 || !scan.sensor_motion.empty()) return outcome;
+  const Eigen::Vector3d found =
+      geometry::between(T_odom_base_, outcome.T_odom_base).log() / elapsed;
+  const Eigen::Vector3d moved = duration * (found - predicted);
+  if (outcome.state == MatchState::kFailed ||
+      (moved.head<2>().norm() < kSweepPosition && std::abs(moved[2]) < kSweepHeading)) {
+    return outcome;
+  }
+  sweep_ = readSweep(scan, T_base_sensor, found);
+  return matcher_->match(sweep_, prior, window);
+}
+
+// The gain of a Kalman filter whose state is the pose, and what it makes of the step: its error is
+// −K e + (1 − K) w − K v, with the errors e of the pose before, w of the prediction, v of the
+// match.
+void DeadReckoner::Impl::takeMatch(const MatchOutcome& outcome, const UncertainPose2& predicted,
+                                   double elapsed, DeadReckoningUpdate& update) {
+  update.state = outcome.state;
+  update.inliers = outcome.inliers;
+  update.searched = outcome.searched;
+  const Eigen::Matrix3d first = geometry::composeJacobianFirst(T_odom_base_, predicted.mean);
+  const Eigen::Matrix3d second = geometry::composeJacobianSecond(T_odom_base_);
+  const Eigen::Matrix3d before = first * covariance_ * first.transpose();
+  const Eigen::Matrix3d motion = second * predicted.covariance * second.transpose();
+  if (outcome.state == MatchState::kFailed) {
+    covariance_ = before + motion;
+    update.step = predicted;
+    T_odom_base_ = T_odom_base_ * predicted.mean;
+    bridged_ += elapsed;
+  } else {
+    const Eigen::Matrix3d prior_information = (before + motion).inverse();
+    const Eigen::Matrix3d after = (prior_information + outcome.information).inverse();
+    const Eigen::Matrix3d gain = after * outcome.information;
+    const Eigen::Matrix3d rest = after * prior_information;
+    const Eigen::Matrix3d of_match = after * outcome.information * after.transpose();
+    const Eigen::Matrix3d step = gain * before * gain.transpose() +
+                                 rest * motion * rest.transpose() + of_match + outcome.spread;
+    covariance_ = after + outcome.spread;
+    update.step = {geometry::between(T_odom_base_, outcome.T_odom_base),
+                   second.transpose() * step * second};
+    T_odom_base_ = outcome.T_odom_base;
+    bridged_ = 0.0;
+  }
+  twist_ = twistOf(update.step, elapsed);
+}
+
+// New surfaces are as far off as the pose they were seen from: that share of its uncertainty goes
+// over to the reference, and cannot be matched away any more.
+void DeadReckoner::Impl::learn(MatchState state) {
+  const double share = matcher_->learn(sweep_, T_odom_base_, state);
+  if (share == 0.0) return;
+  const Eigen::Matrix3d handed = share * covariance_;
+  covariance_ -= handed;
+  const Eigen::Matrix3d kept = covariance_;
+  covariance_ = handed;
+  T_odom_reference_ = pose();
+  covariance_ = kept;
+}
+
+UncertainPose2 DeadReckoner::Impl::pose() const {
+  const Eigen::Matrix3d carried = geometry::composeJacobianFirst(
+      T_odom_reference_.mean, geometry::between(T_odom_reference_.mean, T_odom_base_));
+  return {T_odom_base_, carried * T_odom_reference_.covariance * carried.transpose() + covariance_};
 }
 
 void DeadReckoner::Impl::reset(const Pose2& T_odom_base) {
   stamp_.reset();
-  pose_ = {T_odom_base, Eigen::Matrix3d::Zero()};
-  twist_.setZero();
-  twist_covariance_.setZero();
-  submap_.clear();
+  matcher_->clear();
+  T_odom_base_ = T_odom_base;
+  T_odom_reference_ = {T_odom_base, Eigen::Matrix3d::Zero()};
+  covariance_.setZero();
+  twist_ = {};
+  bridged_ = 0.0;
 }
 
 DeadReckoner::DeadReckoner(const DeadReckonerConfig& config)
     : impl_(std::make_unique<Impl>(config)) {}
 DeadReckoner::~DeadReckoner() = default;
-DeadReckoner::DeadReckoner(const DeadReckoner& other)
-    : impl_(std::make_unique<Impl>(*other.impl_)) {}
 DeadReckoner::DeadReckoner(DeadReckoner&&) noexcept = default;
 DeadReckoner& DeadReckoner::operator=(DeadReckoner&&) noexcept = default;
 

@@ -29,8 +29,11 @@ void SubmapConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("turn_spacing", turn_spacing, {"rad", kAngle, "turn between two keyframes"});
   visitor.number("surface_sigma", surface_sigma,
                  {"m", {1e-4, 1.0}, "roughness of surfaces and errors of the reference"});
-  visitor.number("min_inliers", min_inliers,
-                 {"1", kShare, "share of beams with a counterpart below which a match fails"});
+  visitor.number("max_cost", max_cost,
+                 {"1", kShare, "share of a scan left unexplained above which a match has failed"});
+  visitor.number("max_contradictions", max_contradictions,
+                 {"1", kShare,
+                  "share of a scan that the reference contradicts above which a match has failed"});
 }
 
 void PoseSpaceConfig::visit(config::FieldVisitor& visitor) {

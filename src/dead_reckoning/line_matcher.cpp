@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace sightline::dead_reckoning {
 
@@ -11,112 +14,124 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr int kMaxIterations = 20;
-constexpr double kScaleFall = 0.6;
+constexpr int kMaxRounds = 12;
+constexpr int kMaxSteps = 4;  // of the pose, for each choice of counterparts
+constexpr double kScaleFall = 0.4;
 constexpr double kFinalScale = 3.0;  // in standard deviations
-constexpr double kInlier = 0.08;     // [m]
-constexpr double kTruncation = 0.2;  // [m]
+constexpr double kMaxReach = 0.25;   // a counterpart is sought no further than this [m]
+// Beyond its own half length a surfel counts a little further [m].
+constexpr double kOverhang = 0.03;
+// A step as small as this is the last; a pose that moved less than ten of them keeps its pairs.
+constexpr double kSettled = 3e-4;      // [m]
+constexpr double kTurnSettled = 1e-4;  // [rad]
+constexpr double kKeepsPairs = 10.0;
 
-struct Normal {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  double inliers = 0.0;
-  double cost = 0.0;
-};
-
-class Matcher {
- public:
-  Matcher(const std::vector<SurfacePoint>& points, const Submap& submap, const PosePrior& prior,
-          double surface_sigma)
-      : points_(points),
-        submap_(submap),
-        prior_(prior),
-        surface_variance_(surface_sigma * surface_sigma) {}
-
-  LineMatch match(const Pose2& start, double start_scale) {
-    LineMatch match;
-    match.T_odom_base = start;
-    double scale = start_scale;
-    for (int i = 0; i < kMaxIterations; ++i) {
-      const Normal normal = linearize(match.T_odom_base, scale);
-      describe(normal, match);
-      const Eigen::Vector3d step = solve(normal, match.T_odom_base);
-      match.T_odom_base = Pose2(match.T_odom_base.coordinates() + step);
-      const bool finest = scale <= finalScale();
-      match.converged = finest && step.head<2>().norm() < 2e-4 && std::abs(step[2]) < 5e-5;
-      if (match.converged) break;
-      scale = std::max(finalScale(), kScaleFall * scale);
-    }
-    return match;
-  }
-
- private:
-  double finalScale() const { return kFinalScale * std::sqrt(2.0 * surface_variance_); }
-
-  Normal linearize(const Pose2& pose, double scale) const {
-    Normal sum;
-    const Eigen::Matrix2d rotation = pose.rotation();
-    const Eigen::Vector2d translation = pose.translation();
-    for (const SurfacePoint& point : points_) {
-      const Eigen::Vector2d arm = rotation * point.position;
-      const Surfel* surfel = submap_.nearest(arm + translation, rotation * point.normal);
-      if (surfel == nullptr) continue;
-      add(point, *surfel, arm, arm + translation - surfel->position, scale, sum);
-    }
-    return sum;
-  }
-
-  void add(const SurfacePoint& point, const Surfel& surfel, const Eigen::Vector2d& arm,
-           const Eigen::Vector2d& difference, double scale, Normal& sum) const {
-    const double along =
-        std::abs(surfel.normal.x() * difference.y() - surfel.normal.y() * difference.x());
-    if (along > surfel.reach + 0.5 * scale + 0.03) return;
-    const double distance = surfel.normal.dot(difference);
-    const double ratio = distance / scale;
-    const double robust = 1.0 / (1.0 + ratio * ratio);
-    const double weight = robust * robust / (point.variance + surface_variance_);
-    const Eigen::Vector3d jacobian(surfel.normal.x(), surfel.normal.y(),
-                                   surfel.normal.y() * arm.x() - surfel.normal.x() * arm.y());
-    sum.information += weight * jacobian * jacobian.transpose();
-    sum.gradient += weight * distance * jacobian;
-    if (std::abs(distance) < kInlier) sum.inliers += 1.0;
-    sum.cost += std::max(0.0, 1.0 - distance * distance / (kTruncation * kTruncation));
-  }
-
-  void describe(const Normal& normal, LineMatch& match) const {
-    const double count = static_cast<double>(std::max<std::size_t>(1, points_.size()));
-    match.information = normal.information;
-    match.inliers = normal.inliers / count;
-    match.cost = 1.0 - normal.cost / count;
-  }
-
-  Eigen::Vector3d solve(const Normal& normal, const Pose2& pose) const {
-    Eigen::Vector3d off = pose.coordinates() - prior_.T_odom_base.coordinates();
-    off[2] = geometry::wrapAngle(off[2]);
-    const Eigen::Matrix3d information = normal.information + prior_.information;
-    return -information.ldlt().solve(normal.gradient + prior_.information * off);
-  }
-
-  const std::vector<SurfacePoint>& points_;
-  const Submap& submap_;
-  const PosePrior& prior_;
-  double surface_variance_;
-};
+Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(matrix);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         solver.eigenvectors().transpose();
+}
 
 }  // namespace
 
-LineResidual lineResidual(const Pose2& T_odom_base, const Eigen::Vector2d& point_base,
+LineResidual lineResidual(const Eigen::Vector2d& translation_odom, const Eigen::Vector2d& arm_odom,
                           const Surfel& surfel) {
-  LineResidual residual;
-  residual.value = surfel.normal.dot(T_odom_base * point_base - surfel.position);
-  residual.jacobian = surfel.normal.transpose() * geometry::actJacobian(T_odom_base, point_base);
-  return residual;
+  const Eigen::Vector2d& normal = surfel.normal;
+  return {normal.dot(arm_odom + translation_odom - surfel.position),
+          {normal.x(), normal.y(), normal.y() * arm_odom.x() - normal.x() * arm_odom.y()}};
 }
 
-LineMatch matchLines(const std::vector<SurfacePoint>& points, const Submap& submap,
-                     const Pose2& start, const PosePrior& prior, double surface_sigma,
-                     double start_scale) {
-  return Matcher(points, submap, prior, surface_sigma).match(start, start_scale);
+LineMatch LineMatcher::match(const std::vector<SurfacePoint>& points, const Submap& submap,
+                             const Pose2& start, const geometry::UncertainPose2& prior,
+                             double start_scale) {
+  const Eigen::Matrix3d prior_information = prior.covariance.inverse();
+  LineMatch match;
+  match.T_odom_base = start;
+  double scale = std::max(finalScale(), start_scale);
+  bool settled = false;
+  for (int i = 0; i < kMaxRounds && !settled; ++i) {
+    findPairs(points, submap, match.T_odom_base, scale);
+    const double moved = descend(prior.mean, prior_information, scale, match);
+    settled = scale == finalScale() && moved < kKeepsPairs;
+    scale = std::max(finalScale(), kScaleFall * scale);
+  }
+  listResiduals(points, match);
+  return match;
+}
+
+double LineMatcher::finalScale() const {
+  return kFinalScale * std::sqrt(2.0 * surface_variance_);
+}
+
+void LineMatcher::findPairs(const std::vector<SurfacePoint>& points, const Submap& submap,
+                            const Pose2& pose, double scale) {
+  const Eigen::Matrix2d rotation = pose.rotation();
+  const double reach = std::min(kMaxReach, 2.0 * scale + 0.05);
+  pairs_.clear();
+  for (const SurfacePoint& point : points) {
+    const Eigen::Vector2d place = rotation * point.position + pose.translation();
+    const Surfel* surfel = submap.nearest(place, rotation * point.normal, reach);
+    if (surfel == nullptr) continue;
+    const Eigen::Vector2d off = place - surfel->position;
+    const double along = std::abs(surfel->normal.x() * off.y() - surfel->normal.y() * off.x());
+    if (along <= surfel->reach + 0.5 * scale + kOverhang) pairs_.push_back({&point, surfel});
+  }
+}
+
+// Returns how far it went, in units of what counts as settled.
+double LineMatcher::descend(const Pose2& prior, const Eigen::Matrix3d& prior_information,
+                            double scale, LineMatch& match) const {
+  double moved = 0.0;
+  double size = 2.0;
+  for (int i = 0; i < kMaxSteps && size > 1.0; ++i) {
+    const NormalEquations normal = linearize(match.T_odom_base, scale);
+    Eigen::Vector3d off = match.T_odom_base.coordinates() - prior.coordinates();
+    off[2] = geometry::wrapAngle(off[2]);
+    const Eigen::Matrix3d information = normal.information + prior_information;
+    const Eigen::Vector3d step =
+        -information.ldlt().solve(normal.gradient + prior_information * off);
+    match.T_odom_base = Pose2(match.T_odom_base.coordinates() + step);
+    match.information = normal.information;
+    size = std::max(step.head<2>().norm() / kSettled, std::abs(step[2]) / kTurnSettled);
+    moved += size;
+  }
+  return moved;
+}
+
+LineMatcher::NormalEquations LineMatcher::linearize(const Pose2& pose, double scale) const {
+  const Eigen::Matrix2d rotation = pose.rotation();
+  const Eigen::Vector2d translation = pose.translation();
+  NormalEquations sum;
+  // Normals that err make a straight wall look as if it showed the position along it.
+  Eigen::Matrix3d spurious = Eigen::Matrix3d::Zero();
+  for (const Pair& pair : pairs_) {
+    const Eigen::Vector2d arm = rotation * pair.point->position;
+    const LineResidual residual = lineResidual(translation, arm, *pair.surfel);
+    const double ratio = residual.value / scale;
+    const double robust = 1.0 / (1.0 + ratio * ratio);
+    const double weight = robust * robust / (pair.point->variance + surface_variance_);
+    sum.information += weight * residual.jacobian * residual.jacobian.transpose();
+    sum.gradient += weight * residual.value * residual.jacobian;
+    const Eigen::Vector2d& n = pair.surfel->normal;
+    const Eigen::Vector3d turned(-n.y(), n.x(), n.x() * arm.x() + n.y() * arm.y());
+    spurious += weight * pair.surfel->normal_variance * turned * turned.transpose();
+  }
+  sum.information = positivePart(sum.information - spurious);
+  return sum;
+}
+
+void LineMatcher::listResiduals(const std::vector<SurfacePoint>& points, LineMatch& match) const {
+  const Eigen::Matrix2d rotation = match.T_odom_base.rotation();
+  match.residuals.assign(points.size(), std::numeric_limits<double>::quiet_NaN());
+  match.distances = match.residuals;
+  for (const Pair& pair : pairs_) {
+    const auto i = static_cast<std::size_t>(pair.point - points.data());
+    match.distances[i] =
+        lineResidual(match.T_odom_base.translation(), rotation * pair.point->position, *pair.surfel)
+            .value;
+    match.residuals[i] = match.distances[i] / std::sqrt(pair.point->variance + surface_variance_);
+  }
 }
 
 }  // namespace sightline::dead_reckoning

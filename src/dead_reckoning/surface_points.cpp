@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace sightline::dead_reckoning {
 
 namespace {
@@ -19,12 +21,26 @@ constexpr double kStep = 0.05;  // [m]
 // What a surface may leave of its points and still be straight [m].
 constexpr double kStraight = 0.02;
 
-Eigen::Vector2d sensorPoint(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor,
-                            const Eigen::Vector3d& twist) {
+Eigen::Vector2d basePoint(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor,
+                          const Eigen::Vector3d& twist) {
   const double offset = scan.geometry->timeOffsets()[beam];
   const Eigen::Vector2d still = T_base_sensor * scan.point(beam);
   if (!scan.sensor_motion.empty() || offset == 0.0 || twist.isZero()) return still;
   return Pose2::exp(offset * twist) * still;
+}
+
+void check(const scan::Scan& scan) {
+  const std::size_t beams = scan.geometry->beams();
+  if (scan.ranges.size() != beams || scan.kinds.size() != beams ||
+      scan.range_variances.size() != beams) {
+    throw scan::InvalidScan(fmt::format("{} ranges, {} kinds and {} variances for {} beams",
+                                        scan.ranges.size(), scan.kinds.size(),
+                                        scan.range_variances.size(), beams));
+  }
+  if (!scan.sensor_motion.empty() && scan.sensor_motion.size() != beams) {
+    throw scan::InvalidScan(
+        fmt::format("the sensor's motion at {} of {} beams", scan.sensor_motion.size(), beams));
+  }
 }
 
 // Sums over points 0 .. i-1, so that those of any stretch are a difference.
@@ -46,7 +62,8 @@ struct Sums {
 struct Line {
   Eigen::Vector2d centre;
   Eigen::Vector2d normal;
-  double mean_square;  // of the residuals
+  double mean_square;      // of the residuals
+  double normal_variance;  // [rad²]
 };
 
 Line fit(const Sums& sums, std::size_t count) {
@@ -59,19 +76,23 @@ Line fit(const Sums& sums, std::size_t count) {
   const double smaller = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy);
   // Two parameters were taken from the points.
   const double free = std::max(1.0, n - 2.0);
-  return {centre, {-std::sin(direction), std::cos(direction)}, std::max(0.0, smaller) * n / free};
+  const double larger = xx + yy - smaller;
+  const double mean_square = std::max(0.0, smaller) * n / free;
+  return {centre,
+          {-std::sin(direction), std::cos(direction)},
+          mean_square,
+          mean_square / std::max(n * larger, 1e-9)};
 }
 
 class SurfaceFinder {
  public:
-  SurfaceFinder(const Eigen::Vector2d& sensor, double beam_angle, std::vector<SurfacePoint>& points)
-      : sensor_(sensor), points_(points) {
-    const double widest = beam_angle / kGrazing;
-    sums_.reserve(points.size() + 1);
+  explicit SurfaceFinder(Sweep& sweep) : sensor_(sweep.sensor), points_(sweep.points) {
+    const double widest = sweep.beam_angle / kGrazing;
+    sums_.reserve(points_.size() + 1);
     sums_.emplace_back();
-    first_.reserve(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      sums_.push_back(sums_.back().with(points[i].position));
+    first_.reserve(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      sums_.push_back(sums_.back().with(points_[i].position));
       const bool broken = i == 0 || gap(i) > kStep + widest * nearer(i);
       first_.push_back(broken ? i : first_.back());
     }
@@ -105,16 +126,17 @@ class SurfaceFinder {
     const std::size_t right = std::min(end, i + half + 1);
     Line best = fit(sums_[right] - sums_[left], right - left);
     if (best.mean_square > kStraight * kStraight / 4.0) {
-      takeBetter(i, std::max(first, i - std::min(i, 2 * half)), i + 1, best);
-      takeBetter(i, i, std::min(end, i + 2 * half + 1), best);
+      takeBetter(std::max(first, i - std::min(i, 2 * half)), i + 1, best);
+      takeBetter(i, std::min(end, i + 2 * half + 1), best);
     }
     if (best.mean_square > kStraight * kStraight) return;
     const bool towards = best.normal.dot(sensor_ - point.position) > 0.0;
     point.normal = towards ? best.normal : Eigen::Vector2d(-best.normal);
+    point.normal_variance = best.normal_variance;
     point.smoothed = point.position + best.normal.dot(best.centre - point.position) * best.normal;
   }
 
-  void takeBetter(std::size_t, std::size_t left, std::size_t right, Line& best) const {
+  void takeBetter(std::size_t left, std::size_t right, Line& best) const {
     if (right - left <= kMinHalf) return;
     const Line line = fit(sums_[right] - sums_[left], right - left);
     if (line.mean_square < best.mean_square) best = line;
@@ -128,23 +150,22 @@ class SurfaceFinder {
 
 }  // namespace
 
-void positionsOf(const scan::Scan& scan, const Pose2& T_base_sensor, const Eigen::Vector3d& twist,
-                 std::vector<SurfacePoint>& points) {
-  points.clear();
-  points.reserve(scan.beams());
+Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor, const Eigen::Vector3d& twist) {
+  check(scan);
+  Sweep sweep;
+  sweep.sensor = T_base_sensor.translation();
+  sweep.beam_angle = std::abs(scan.geometry->angleIncrement());
+  sweep.points.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    if (!scan.isValid(i)) continue;
+    if (!scan.isValid(i) || !std::isfinite(scan.ranges[i])) continue;
     SurfacePoint point;
-    point.position = sensorPoint(scan, i, T_base_sensor, twist);
+    point.position = basePoint(scan, i, T_base_sensor, twist);
     point.smoothed = point.position;
     point.variance = scan.range_variances[i];
-    points.push_back(point);
+    sweep.points.push_back(point);
   }
-}
-
-void findSurfaces(const Eigen::Vector2d& sensor_base, double beam_angle,
-                  std::vector<SurfacePoint>& points) {
-  SurfaceFinder(sensor_base, beam_angle, points).find();
+  SurfaceFinder(sweep).find();
+  return sweep;
 }
 
 }  // namespace sightline::dead_reckoning

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "sightline/dead_reckoning/dead_reckoner_config.h"
+#include "sightline/dead_reckoning/match_state.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/scan/scan.h"
 
@@ -19,14 +20,6 @@ struct MotionPrior {
   /// Of its coordinates (x, y, θ) [m², m rad, rad²]. Large entries leave to the scans what it does
   /// not know: a gyroscope says nothing of x and y.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
-};
-
-enum class MatchState : std::uint8_t {
-  kInitial = 0,    ///< first scan, or first after a reset: nothing to match with
-  kMatched = 1,    ///< the only one that is not flagged
-  kAmbiguous = 2,  ///< several poses explain the scan as well as this one
-  kRecovered = 3,  ///< matched, but the pose before was bridged and turns out to have been wrong
-  kFailed = 4,     ///< no pose explains the scan: bridged by the prior
 };
 
 /// What one scan did to the pose.

@@ -28,7 +28,8 @@ struct SubmapConfig {
   double spacing = 0.4;         ///< of keyframes, way between them [m]
   double turn_spacing = 0.35;   ///< of keyframes, turn between them [rad]
   double surface_sigma = 0.01;  ///< roughness of surfaces and errors of the reference [m]
-  double min_inliers = 0.6;  ///< share of the beams with a counterpart, below which a match fails
+  double max_cost = 0.25;  ///< share of a scan left unexplained, above which a match has failed
+  double max_contradictions = 0.2;  ///< share of a scan that contradicts, above which it has failed
 
   void visit(config::FieldVisitor& visitor);
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,31 +14,54 @@ namespace sightline::dead_reckoning {
 /// coordinates (x, y, θ) of the pose.
 struct LineResidual {
   double value = 0.0;
-  Eigen::RowVector3d jacobian = Eigen::RowVector3d::Zero();
+  Eigen::Vector3d jacobian = Eigen::Vector3d::Zero();
 };
-LineResidual lineResidual(const geometry::Pose2& T_odom_base, const Eigen::Vector2d& point_base,
+
+/// @param arm_odom  the point, seen from the base, along the axes of odom [m]
+LineResidual lineResidual(const Eigen::Vector2d& translation_odom, const Eigen::Vector2d& arm_odom,
                           const Surfel& surfel);
 
-/// A pose of the base that explains a scan.
+/// A pose of the base at which a scan meets the reference.
 struct LineMatch {
   geometry::Pose2 T_odom_base;
-  /// Of the coordinates (x, y, θ), from the beams alone: 1/m², 1/m, 1.
+  /// Of the coordinates (x, y, θ), by the beams alone and as if their errors were independent.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  double inliers = 0.0;  ///< share of the points
-  double cost = 1.0;     ///< mean truncated squared distance, [0, 1]
-  bool converged = false;
-};
-
-/// What is known of a pose besides the scan.
-struct PosePrior {
-  geometry::Pose2 T_odom_base;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of its coordinates
+  /// Of each point from its counterpart's line, in standard deviations; NaN without a counterpart.
+  std::vector<double> residuals;
+  std::vector<double> distances;  ///< the same in metres
 };
 
 /// Point-to-line matching by iteratively reweighted least squares: the maximum a posteriori pose
-/// under Geman-McClure's loss, whose scale falls from `start_scale` to that of the noise.
-LineMatch matchLines(const std::vector<SurfacePoint>& points, const Submap& submap,
-                     const geometry::Pose2& start, const PosePrior& prior, double surface_sigma,
-                     double start_scale);
+/// under Geman-McClure's loss.
+class LineMatcher {
+ public:
+  /// @param surface_sigma  roughness of surfaces and errors of the reference [m]
+  explicit LineMatcher(double surface_sigma) : surface_variance_(surface_sigma * surface_sigma) {}
+
+  /// @param start_scale  scale of the loss at first; it falls to that of the noise [m]
+  LineMatch match(const std::vector<SurfacePoint>& points, const Submap& submap,
+                  const geometry::Pose2& start, const geometry::UncertainPose2& prior,
+                  double start_scale);
+
+ private:
+  struct Pair {
+    const SurfacePoint* point;
+    const Surfel* surfel;
+  };
+  struct NormalEquations {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  };
+  double finalScale() const;
+  void findPairs(const std::vector<SurfacePoint>& points, const Submap& submap,
+                 const geometry::Pose2& pose, double scale);
+  double descend(const geometry::Pose2& prior, const Eigen::Matrix3d& prior_information,
+                 double scale, LineMatch& match) const;
+  NormalEquations linearize(const geometry::Pose2& pose, double scale) const;
+  void listResiduals(const std::vector<SurfacePoint>& points, LineMatch& match) const;
+
+  double surface_variance_;
+  std::vector<Pair> pairs_;
+};
 
 }  // namespace sightline::dead_reckoning

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "sightline/dead_reckoning/line_matcher.h"
+#include "sightline/dead_reckoning/range_profile.h"
+#include "sightline/dead_reckoning/submap.h"
+#include "sightline/dead_reckoning/surface_points.h"
+
+namespace sightline::dead_reckoning {
+
+/// What speaks for and against a pose, as shares of the scan's points, [0, 1].
+struct Evidence {
+  double inliers = 0.0;         ///< lie on their counterpart in the reference
+  double contradictions = 0.0;  ///< lie where the reference saw free space, or look through it
+  double cost = 1.0;            ///< 0: all explained; 1: nothing is
+};
+
+/// Weighs a match. A point without a counterpart is no witness against it where the reference did
+/// not see; where it saw free space it is one, and so is a point of the newest keyframe that the
+/// scan looks through.
+///
+/// @param profile  of the same sweep
+Evidence weigh(const LineMatch& match, const Sweep& sweep, const RangeProfile& profile,
+               const Submap& submap);
+
+/// By how much the covariance of a match is larger than its information says: the variance of its
+/// residuals, times what neighbours have in common (their number counts (1 − r)/(1 + r)-fold at a
+/// correlation r).
+double varianceFactor(const LineMatch& match);
+
+}  // namespace sightline::dead_reckoning
