@@ -12,6 +12,10 @@ struct Attitude {
 
   /// R_level_body: takes vectors of the body to the level frame with its heading.
   Eigen::Matrix3d rotation() const;
+  /// Of a rotation R_world_body, its heading left out.
+  static Attitude of(const Eigen::Matrix3d& rotation);
+  /// That of a frame which sits on the body, turned by `yaw` [rad] about its z axis.
+  Attitude seenFrom(double yaw) const;
 };
 
 }  // namespace sightline::geometry
