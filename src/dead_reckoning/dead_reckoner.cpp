@@ -22,10 +22,28 @@ constexpr double kLeastSigma = 1e-4;
 // A sweep is corrected anew where the motion found moves its last beam by this much [m, rad].
 constexpr double kSweepPosition = 0.003;
 constexpr double kSweepHeading = 0.001;
+// How well the motion within a sweep is known, as a share of what a change of velocity makes of it.
+constexpr double kAccelerationTime = 0.15;  // [s]
+// A match may be this much further off than the carrier can get: it has errors too.
+constexpr double kSlackPosition = 0.05;  // [m]
+constexpr double kSlackHeading = 0.05;   // [rad]
+constexpr double kSweepUnsure = 0.25;
 
 std::unique_ptr<Matcher> makeMatcher(const DeadReckonerConfig& config) {
+  config::validate(config);
   return std::make_unique<SubmapMatcher>(config.submap);
 }
+
+/// A matcher that is copied with whoever has it.
+class OwnMatcher {
+ public:
+  explicit OwnMatcher(std::unique_ptr<Matcher> matcher) : matcher_(std::move(matcher)) {}
+  OwnMatcher(const OwnMatcher& other) : matcher_(other.matcher_->clone()) {}
+  Matcher* operator->() const { return matcher_.get(); }
+
+ private:
+  std::unique_ptr<Matcher> matcher_;
+};
 
 UncertainPose2 bounded(UncertainPose2 step) {
   step.covariance.diagonal().array() += kLeastSigma * kLeastSigma;
@@ -36,10 +54,8 @@ UncertainPose2 bounded(UncertainPose2 step) {
 
 class DeadReckoner::Impl {
  public:
-  explicit Impl(const DeadReckonerConfig& config) : config_(config) {
-    config::validate(config);
-    matcher_ = makeMatcher(config);
-  }
+  explicit Impl(const DeadReckonerConfig& config)
+      : config_(config), matcher_(makeMatcher(config)) {}
 
   std::optional<DeadReckoningUpdate> update(const scan::Scan& scan, const Pose2& T_base_sensor,
                                             const std::optional<MotionPrior>& prior);
@@ -51,18 +67,21 @@ class DeadReckoner::Impl {
                      double elapsed);
   void takeMatch(const MatchOutcome& outcome, const UncertainPose2& predicted_step, double elapsed,
                  DeadReckoningUpdate& update);
-  void bridge(const UncertainPose2& step, double elapsed);
+  Eigen::Vector3d accelerationTo(const Eigen::Vector3d& twist, double elapsed) const;
+  bool isPossible(const Pose2& T_odom_base, double elapsed) const;
   void learn(MatchState state);
   UncertainPose2 pose() const;
 
   DeadReckonerConfig config_;
-  std::unique_ptr<Matcher> matcher_;
+  OwnMatcher matcher_;
   std::optional<std::int64_t> stamp_;
   Pose2 T_odom_base_;
   // The pose is known relative to the reference, that relative to odom.
   UncertainPose2 T_odom_reference_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  // of T_odom_base_ about the reference
   Twist twist_;
+  bool moving_ = false;  // whether the twist is known
+  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();
   double bridged_ = 0.0;  // time since the last match [s]
   Sweep sweep_;
 };
@@ -81,7 +100,9 @@ std::optional<DeadReckoningUpdate> DeadReckoner::Impl::update(
     const UncertainPose2 step =
         bounded(prior ? UncertainPose2{prior->T_before_now, prior->covariance}
                       : predictStep(config_.carrier, twist_, elapsed));
-    takeMatch(match(scan, T_base_sensor, step, elapsed), step, elapsed, update);
+    MatchOutcome outcome = match(scan, T_base_sensor, step, elapsed);
+    if (!isPossible(outcome.T_odom_base, elapsed)) outcome.state = MatchState::kFailed;
+    takeMatch(outcome, step, elapsed, update);
   }
   learn(update.state);
   update.beams = sweep_.points.size();
@@ -99,16 +120,40 @@ MatchOutcome DeadReckoner::Impl::match(const scan::Scan& scan, const Pose2& T_ba
   sweep_ = readSweep(scan, T_base_sensor, predicted);
   MatchOutcome outcome = matcher_->match(sweep_, prior, window);
   const double duration = scan.geometry->timeOffsets().back();
-  if (duration == 0.0 || !scan.sensor_motion.empty()) return outcome;
-  const Eigen::Vector3d found =
-      geometry::between(T_odom_base_, outcome.T_odom_base).log() / elapsed;
-  const Eigen::Vector3d moved = duration * (found - predicted);
-  if (outcome.state == MatchState::kFailed ||
-      (moved.head<2>().norm() < kSweepPosition && std::abs(moved[2]) < kSweepHeading)) {
+  if (duration == 0.0 || !scan.sensor_motion.empty() || outcome.state == MatchState::kFailed) {
     return outcome;
   }
-  sweep_ = readSweep(scan, T_base_sensor, found);
-  return matcher_->match(sweep_, prior, window);
+  const Eigen::Vector3d found =
+      geometry::between(T_odom_base_, outcome.T_odom_base).log() / elapsed;
+  const Eigen::Vector3d acceleration = accelerationTo(found, elapsed);
+  // From the middle of the step to that of the sweep.
+  const Eigen::Vector3d during = found + 0.5 * (elapsed + duration) * acceleration;
+  const Eigen::Vector3d moved = duration * (during - predicted);
+  if (moved.head<2>().norm() > kSweepPosition || std::abs(moved[2]) > kSweepHeading) {
+    sweep_ = readSweep(scan, T_base_sensor, during);
+    outcome = matcher_->match(sweep_, prior, window);
+  }
+  const Eigen::Vector3d unsure = kSweepUnsure * duration * elapsed * acceleration;
+  outcome.spread += unsure.cwiseAbs2().asDiagonal();
+  return outcome;
+}
+
+// Averaged over some time, as what is found of a sweep comes back in what is found of the next.
+Eigen::Vector3d DeadReckoner::Impl::accelerationTo(const Eigen::Vector3d& twist,
+                                                   double elapsed) const {
+  if (!moving_) return Eigen::Vector3d::Zero();
+  const double kept = std::exp(-elapsed / kAccelerationTime);
+  return kept * acceleration_ + (1.0 - kept) * (twist - twist_.mean) / elapsed;
+}
+
+// Whether the carrier can have made a step, as far as it is known where it began.
+bool DeadReckoner::Impl::isPossible(const Pose2& T_odom_base, double elapsed) const {
+  const Pose2 step = geometry::between(T_odom_base_, T_odom_base);
+  const Eigen::Vector3d sigma = covariance_.diagonal().cwiseSqrt();
+  const double reach = config_.carrier.max_speed * elapsed + kSlackPosition;
+  const double turn = config_.carrier.max_turn_rate * elapsed + kSlackHeading;
+  return step.translation().norm() < reach + 3.0 * sigma.head<2>().norm() &&
+         std::abs(step.theta()) < turn + 3.0 * sigma.z();
 }
 
 // The gain of a Kalman filter whose state is the pose, and what it makes of the step: its error is
@@ -134,15 +179,19 @@ void DeadReckoner::Impl::takeMatch(const MatchOutcome& outcome, const UncertainP
     const Eigen::Matrix3d gain = after * outcome.information;
     const Eigen::Matrix3d rest = after * prior_information;
     const Eigen::Matrix3d of_match = after * outcome.information * after.transpose();
-    const Eigen::Matrix3d step = gain * before * gain.transpose() +
-                                 rest * motion * rest.transpose() + of_match + outcome.spread;
+    const Eigen::Matrix3d step =
+        (1.0 - outcome.common) * (gain * before * gain.transpose() + of_match) +
+        rest * motion * rest.transpose() + outcome.spread;
     covariance_ = after + outcome.spread;
     update.step = {geometry::between(T_odom_base_, outcome.T_odom_base),
                    second.transpose() * step * second};
     T_odom_base_ = outcome.T_odom_base;
     bridged_ = 0.0;
   }
-  twist_ = twistOf(update.step, elapsed);
+  const Twist twist = twistOf(update.step, elapsed);
+  acceleration_ = accelerationTo(twist.mean, elapsed);
+  twist_ = twist;
+  moving_ = true;
 }
 
 // New surfaces are as far off as the pose they were seen from: that share of its uncertainty goes
@@ -171,12 +220,16 @@ void DeadReckoner::Impl::reset(const Pose2& T_odom_base) {
   T_odom_reference_ = {T_odom_base, Eigen::Matrix3d::Zero()};
   covariance_.setZero();
   twist_ = {};
+  moving_ = false;
+  acceleration_.setZero();
   bridged_ = 0.0;
 }
 
 DeadReckoner::DeadReckoner(const DeadReckonerConfig& config)
     : impl_(std::make_unique<Impl>(config)) {}
 DeadReckoner::~DeadReckoner() = default;
+DeadReckoner::DeadReckoner(const DeadReckoner& other)
+    : impl_(std::make_unique<Impl>(*other.impl_)) {}
 DeadReckoner::DeadReckoner(DeadReckoner&&) noexcept = default;
 DeadReckoner& DeadReckoner::operator=(DeadReckoner&&) noexcept = default;
 

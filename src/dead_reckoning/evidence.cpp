@@ -58,7 +58,7 @@ Evidence weigh(const LineMatch& match, const Sweep& sweep, const RangeProfile& p
           (sum.cost + kLookedThroughCost * through) / count};
 }
 
-double varianceFactor(const LineMatch& match) {
+ResidualSpread spreadOf(const LineMatch& match) {
   double count = 0.0;
   double squares = 0.0;
   double products = 0.0;
@@ -74,9 +74,8 @@ double varianceFactor(const LineMatch& match) {
     products += residual * before;
     before = residual;
   }
-  if (count < 4.0 || squares == 0.0) return 1.0;
-  const double correlation = std::clamp(products / squares, 0.0, 0.9);
-  return squares / (count - 3.0) * (1.0 + correlation) / (1.0 - correlation);
+  if (count < 4.0 || squares == 0.0) return {};
+  return {squares / (count - 3.0), std::clamp(products / squares, 0.0, 0.9)};
 }
 
 }  // namespace sightline::dead_reckoning

@@ -25,12 +25,18 @@ constexpr double kOverhang = 0.03;
 constexpr double kSettled = 3e-4;      // [m]
 constexpr double kTurnSettled = 1e-4;  // [rad]
 constexpr double kKeepsPairs = 10.0;
+constexpr double kLeastInformation = 1e-3;  // where no beam says anything [1/m², 1]
 
 Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(matrix);
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
          solver.eigenvectors().transpose();
+}
+
+// Derivative of a residual's Jacobian by the direction of the normal.
+Eigen::Vector3d turnedJacobian(const Eigen::Vector2d& normal, const Eigen::Vector2d& arm) {
+  return {-normal.y(), normal.x(), normal.dot(arm)};
 }
 
 }  // namespace
@@ -103,7 +109,6 @@ LineMatcher::NormalEquations LineMatcher::linearize(const Pose2& pose, double sc
   const Eigen::Matrix2d rotation = pose.rotation();
   const Eigen::Vector2d translation = pose.translation();
   NormalEquations sum;
-  // Normals that err make a straight wall look as if it showed the position along it.
   Eigen::Matrix3d spurious = Eigen::Matrix3d::Zero();
   for (const Pair& pair : pairs_) {
     const Eigen::Vector2d arm = rotation * pair.point->position;
@@ -113,12 +118,21 @@ LineMatcher::NormalEquations LineMatcher::linearize(const Pose2& pose, double sc
     const double weight = robust * robust / (pair.point->variance + surface_variance_);
     sum.information += weight * residual.jacobian * residual.jacobian.transpose();
     sum.gradient += weight * residual.value * residual.jacobian;
-    const Eigen::Vector2d& n = pair.surfel->normal;
-    const Eigen::Vector3d turned(-n.y(), n.x(), n.x() * arm.x() + n.y() * arm.y());
+    const Eigen::Vector3d turned = turnedJacobian(pair.surfel->normal, arm);
     spurious += weight * pair.surfel->normal_variance * turned * turned.transpose();
   }
-  sum.information = positivePart(sum.information - spurious);
-  return sum;
+  return withoutSpurious(sum, spurious);
+}
+
+// Normals that err make a straight wall look as if it showed the position along it: of the
+// information I only T = I - S is there, while the gradient has the noise of all of I. The error
+// that it leads to, T⁻¹ g, has the information T I⁻¹ T.
+LineMatcher::NormalEquations LineMatcher::withoutSpurious(const NormalEquations& sum,
+                                                          const Eigen::Matrix3d& spurious) {
+  const Eigen::Matrix3d real = positivePart(sum.information - spurious);
+  const Eigen::Matrix3d regular = sum.information + kLeastInformation * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d share = real * regular.inverse();
+  return {share * real, share * sum.gradient};
 }
 
 void LineMatcher::listResiduals(const std::vector<SurfacePoint>& points, LineMatch& match) const {

@@ -23,6 +23,14 @@ Axis predictAxis(double acceleration, double most, double elapsed) {
   return {kept, spread * elapsed * std::sqrt(1.0 - kept * kept)};
 }
 
+Eigen::Vector3d possible(const CarrierConfig& carrier, const Eigen::Vector3d& twist) {
+  const double speed = twist.head<2>().norm();
+  Eigen::Vector3d bounded = twist;
+  if (speed > carrier.max_speed) bounded.head<2>() *= carrier.max_speed / speed;
+  bounded[2] = std::clamp(twist[2], -carrier.max_turn_rate, carrier.max_turn_rate);
+  return bounded;
+}
+
 }  // namespace
 
 Twist twistOf(const geometry::UncertainPose2& step, double elapsed) {
@@ -41,7 +49,7 @@ geometry::UncertainPose2 predictStep(const CarrierConfig& carrier, const Twist& 
   const Eigen::Vector3d kept = elapsed * Eigen::Vector3d(way.kept, way.kept, turn.kept);
   const Eigen::Vector3d sigma(way.sigma, way.sigma, turn.sigma);
   const Eigen::Matrix3d wander = sigma.cwiseAbs2().asDiagonal();
-  return {geometry::Pose2::exp(kept.cwiseProduct(twist.mean)),
+  return {geometry::Pose2::exp(kept.cwiseProduct(possible(carrier, twist.mean))),
           wander + kept.asDiagonal() * twist.covariance * kept.asDiagonal()};
 }
 

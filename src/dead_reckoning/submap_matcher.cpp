@@ -170,7 +170,9 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses) const 
   });
   const Hypothesis& best = hypotheses.front();
   outcome.T_odom_base = best.match.T_odom_base;
-  outcome.information = best.match.information / varianceFactor(best.match);
+  const ResidualSpread spread = spreadOf(best.match);
+  outcome.information = best.match.information / spread.factor();
+  outcome.common = spread.common();
   outcome.inliers = best.evidence.inliers;
   outcome.state = isClear(best.evidence) ? MatchState::kMatched : MatchState::kFailed;
   for (const Hypothesis& other : hypotheses) {

@@ -22,9 +22,18 @@ struct Evidence {
 Evidence weigh(const LineMatch& match, const Sweep& sweep, const RangeProfile& profile,
                const Submap& submap);
 
-/// By how much the covariance of a match is larger than its information says: the variance of its
-/// residuals, times what neighbours have in common (their number counts (1 − r)/(1 + r)-fold at a
-/// correlation r).
-double varianceFactor(const LineMatch& match);
+/// How the residuals of a match are spread.
+struct ResidualSpread {
+  double variance = 1.0;     ///< in units of what was expected
+  double correlation = 0.0;  ///< of neighbours, [0, 1): the reference's errors are theirs together
+
+  /// By how much the covariance of the match is larger than its information says: n neighbours
+  /// count as n (1 − r)/(1 + r) at a correlation r.
+  double factor() const { return variance * (1.0 + correlation) / (1.0 - correlation); }
+  /// The share of that which is due to the reference.
+  double common() const { return 2.0 * correlation / (1.0 + correlation); }
+};
+
+ResidualSpread spreadOf(const LineMatch& match);
 
 }  // namespace sightline::dead_reckoning

@@ -58,6 +58,8 @@ class LineMatcher {
   double descend(const geometry::Pose2& prior, const Eigen::Matrix3d& prior_information,
                  double scale, LineMatch& match) const;
   NormalEquations linearize(const geometry::Pose2& pose, double scale) const;
+  static NormalEquations withoutSpurious(const NormalEquations& sum,
+                                         const Eigen::Matrix3d& spurious);
   void listResiduals(const std::vector<SurfacePoint>& points, LineMatch& match) const;
 
   double surface_variance_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "sightline/dead_reckoning/correlative_search.h"
 #include "sightline/dead_reckoning/match_state.h"
 #include "sightline/dead_reckoning/surface_points.h"
@@ -12,6 +14,9 @@ struct MatchOutcome {
   geometry::Pose2 T_odom_base;  ///< the most probable, the prior included
   /// What the scan alone says of its coordinates (x, y, θ); may be singular.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  /// Share of the variance of its errors that comes from the reference, and so is the same from one
+  /// scan to the next.
+  double common = 0.0;
   /// Covariance of what several candidates leave open, on top of all else.
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   MatchState state = MatchState::kFailed;
@@ -24,6 +29,7 @@ struct MatchOutcome {
 class Matcher {
  public:
   virtual ~Matcher() = default;
+  virtual std::unique_ptr<Matcher> clone() const = 0;
   virtual bool hasReference() const = 0;
   /// @param prior  what is known of the pose besides the scan
   virtual MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,

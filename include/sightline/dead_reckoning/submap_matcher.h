@@ -22,6 +22,7 @@ class SubmapMatcher : public Matcher {
   explicit SubmapMatcher(const SubmapConfig& config)
       : config_(config), lines_(config.surface_sigma) {}
 
+  std::unique_ptr<Matcher> clone() const override { return std::make_unique<SubmapMatcher>(*this); }
   bool hasReference() const override { return !trusted_.submap.empty(); }
   MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
                      const SearchWindow& window) override;
