@@ -19,6 +19,8 @@ constexpr double kNarrowHeading = 0.35;  // [rad]
 // A local match that speaks as clearly as this is taken without looking further.
 constexpr double kClearCost = 0.2;
 constexpr double kClearContradictions = 0.1;
+constexpr double kLeastInliers = 0.25;
+constexpr double kFewContradictions = 0.1;
 constexpr double kNearPrior = 25.0;  // squared Mahalanobis distance
 // The search looks at least this far about a prediction that misled the local match.
 constexpr double kLeastPosition = 0.3;  // [m]
@@ -50,6 +52,10 @@ bool isDistinct(const Pose2& a, const Pose2& b) {
 bool isNear(const Pose2& pose, const UncertainPose2& prior) {
   const Eigen::Vector3d off = difference(pose, prior.mean);
   return off.dot(prior.covariance.inverse() * off) < kNearPrior;
+}
+
+bool isNarrow(const SearchWindow& window) {
+  return window.position < kNarrowPosition && window.heading < kNarrowHeading;
 }
 
 }  // namespace
@@ -115,19 +121,19 @@ MatchOutcome SubmapMatcher::matchWith(Reference& reference, const Sweep& sweep,
   if (sweep.points.size() < kEvidence) return {};
   const RangeProfile profile(sweep);
   std::vector<Hypothesis> hypotheses;
-  if (window.position < kNarrowPosition && window.heading < kNarrowHeading) {
+  if (isNarrow(window)) {
     hypotheses.push_back(
         refine(reference.submap, sweep, profile, window.centre, prior, kLocalScale));
     const Hypothesis& local = hypotheses.back();
     if (local.evidence.cost < kClearCost && local.evidence.contradictions < kClearContradictions &&
         isNear(local.match.T_odom_base, prior)) {
-      return conclude(hypotheses);
+      return conclude(hypotheses, prior, window);
     }
   }
   for (Hypothesis& found : search(reference, sweep, profile, prior, window)) {
     hypotheses.push_back(std::move(found));
   }
-  MatchOutcome outcome = conclude(hypotheses);
+  MatchOutcome outcome = conclude(hypotheses, prior, window);
   outcome.searched = true;
   return outcome;
 }
@@ -158,11 +164,20 @@ SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Swee
   return hypothesis;
 }
 
-bool SubmapMatcher::isClear(const Evidence& evidence) const {
+// Where the prediction leads is a place to believe in, as long as next to nothing speaks against
+// it: beyond a door most of a scan is new.
+bool SubmapMatcher::isClear(const Hypothesis& hypothesis, bool predicted) const {
+  const Evidence& evidence = hypothesis.evidence;
+  if (predicted && evidence.inliers > kLeastInliers &&
+      evidence.contradictions < kFewContradictions) {
+    return true;
+  }
   return evidence.cost < config_.max_cost && evidence.contradictions < config_.max_contradictions;
 }
 
-MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses) const {
+MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses,
+                                     const UncertainPose2& prior,
+                                     const SearchWindow& window) const {
   MatchOutcome outcome;
   if (hypotheses.empty()) return outcome;
   std::sort(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& a, const Hypothesis& b) {
@@ -174,7 +189,8 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses) const 
   outcome.information = best.match.information / spread.factor();
   outcome.common = spread.common();
   outcome.inliers = best.evidence.inliers;
-  outcome.state = isClear(best.evidence) ? MatchState::kMatched : MatchState::kFailed;
+  const bool predicted = isNarrow(window) && isNear(outcome.T_odom_base, prior);
+  outcome.state = isClear(best, predicted) ? MatchState::kMatched : MatchState::kFailed;
   for (const Hypothesis& other : hypotheses) {
     if (other.evidence.cost > best.evidence.cost + kCostGap) break;
     if (!isDistinct(other.match.T_odom_base, outcome.T_odom_base)) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -18,8 +19,12 @@ constexpr std::size_t kMaxHalf = 12;
 // Neighbours further apart than a surface seen at 5 degrees would have them are on two surfaces.
 constexpr double kGrazing = 0.087;
 constexpr double kStep = 0.05;  // [m]
-// What a surface may leave of its points and still be straight [m].
+// What a surface may leave of its points and still be straight; where it is less than smooth, there
+// may be a corner [m].
 constexpr double kStraight = 0.02;
+constexpr double kSmooth = 0.01;
+constexpr std::size_t kMinPoints = 3;
+constexpr double kLeastSpread = 1e-6;  // [m²]
 
 Eigen::Vector2d basePoint(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor,
                           const Eigen::Vector3d& twist) {
@@ -60,10 +65,11 @@ struct Sums {
 };
 
 struct Line {
-  Eigen::Vector2d centre;
-  Eigen::Vector2d normal;
-  double mean_square;      // of the residuals
-  double normal_variance;  // [rad²]
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  // Of the residuals; infinite before the first fit.
+  double mean_square = std::numeric_limits<double>::infinity();
+  double spread = 0.0;  // sum of squared distances from the centre along the line
 };
 
 Line fit(const Sums& sums, std::size_t count) {
@@ -78,10 +84,7 @@ Line fit(const Sums& sums, std::size_t count) {
   const double free = std::max(1.0, n - 2.0);
   const double larger = xx + yy - smaller;
   const double mean_square = std::max(0.0, smaller) * n / free;
-  return {centre,
-          {-std::sin(direction), std::cos(direction)},
-          mean_square,
-          mean_square / std::max(n * larger, 1e-9)};
+  return {centre, {-std::sin(direction), std::cos(direction)}, mean_square, n * larger};
 }
 
 class SurfaceFinder {
@@ -116,28 +119,35 @@ class SurfaceFinder {
   // Of a point whose surface holds the points from `first` to before `end`.
   void find(std::size_t i, std::size_t first, std::size_t end) {
     SurfacePoint& point = points_[i];
-    if (end - first < kMinHalf) return;
+    if (end - first < kMinPoints) return;
     const double before = i > first ? gap(i) : 0.0;
     const double after = i + 1 < end ? gap(i + 1) : 0.0;
     point.reach = std::max(before, after);
     const auto wanted = static_cast<std::size_t>(kHalfLength / std::max(point.reach, 1e-3));
-    const std::size_t half = std::clamp(wanted, kMinHalf, kMaxHalf);
-    const std::size_t left = std::max(first, i - std::min(i, half));
-    const std::size_t right = std::min(end, i + half + 1);
-    Line best = fit(sums_[right] - sums_[left], right - left);
-    if (best.mean_square > kStraight * kStraight / 4.0) {
-      takeBetter(std::max(first, i - std::min(i, 2 * half)), i + 1, best);
-      takeBetter(i, std::min(end, i + 2 * half + 1), best);
+    Line best;
+    for (std::size_t half = std::clamp(wanted, kMinHalf, kMaxHalf); half > 0; half /= 2) {
+      fitAbout(i, first, end, half, best);
+      if (best.mean_square < kStraight * kStraight) break;
     }
     if (best.mean_square > kStraight * kStraight) return;
     const bool towards = best.normal.dot(sensor_ - point.position) > 0.0;
     point.normal = towards ? best.normal : Eigen::Vector2d(-best.normal);
-    point.normal_variance = best.normal_variance;
+    point.normal_variance =
+        std::max(best.mean_square, point.variance) / std::max(best.spread, kLeastSpread);
     point.smoothed = point.position + best.normal.dot(best.centre - point.position) * best.normal;
   }
 
+  // With so many neighbours on either side, or twice as many on the better one.
+  void fitAbout(std::size_t i, std::size_t first, std::size_t end, std::size_t half,
+                Line& best) const {
+    takeBetter(std::max(first, i - std::min(i, half)), std::min(end, i + half + 1), best);
+    if (best.mean_square < kSmooth * kSmooth) return;
+    takeBetter(std::max(first, i - std::min(i, 2 * half)), i + 1, best);
+    takeBetter(i, std::min(end, i + 2 * half + 1), best);
+  }
+
   void takeBetter(std::size_t left, std::size_t right, Line& best) const {
-    if (right - left <= kMinHalf) return;
+    if (right - left < kMinPoints) return;
     const Line line = fit(sums_[right] - sums_[left], right - left);
     if (line.mean_square < best.mean_square) best = line;
   }

@@ -49,8 +49,9 @@ class SubmapMatcher : public Matcher {
   Hypothesis refine(const Submap& submap, const Sweep& sweep, const RangeProfile& profile,
                     const geometry::Pose2& start, const geometry::UncertainPose2& prior,
                     double scale);
-  MatchOutcome conclude(std::vector<Hypothesis>& hypotheses) const;
-  bool isClear(const Evidence& evidence) const;
+  MatchOutcome conclude(std::vector<Hypothesis>& hypotheses, const geometry::UncertainPose2& prior,
+                        const SearchWindow& window) const;
+  bool isClear(const Hypothesis& hypothesis, bool predicted) const;
   double addKeyframe(Reference& reference, const Sweep& sweep, const geometry::Pose2& T_odom_base);
 
   SubmapConfig config_;
