@@ -3,21 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 namespace sightline::dead_reckoning {
 
 namespace {
 
 using geometry::Pose2;
 
-constexpr double kReach = 20.0;    // of the rasters from their centre [m]
-constexpr double kMargin = 4.0;    // they are drawn anew when the centre has moved so far [m]
-constexpr double kSpacing = 0.12;  // of the points that are counted [m]
+constexpr double kReach = 24.0;     // of the rasters from their centre [m]
+constexpr double kFarthest = 16.0;  // of the points that are counted [m]
+constexpr double kMargin = 4.0;     // they are drawn anew when the centre has moved so far [m]
+constexpr double kSpacing = 0.12;   // of the points that are counted [m]
 constexpr int kFull = 255;
 // Steps of the search: those in position are whole cells.
 constexpr double kCoarseHeading = 0.04;  // [rad]
 constexpr double kFineHeading = 0.02;    // [rad]
 constexpr int kFineStride = 2;
-constexpr std::size_t kKept = 400;  // of the coarse poses
+// Of the coarse poses so many are looked at more closely.
+constexpr std::size_t kShareKept = 10;
+constexpr std::size_t kLeastKept = 40;
+constexpr std::size_t kMostKept = 400;
 // Poses nearer to each other than this are one hypothesis.
 constexpr double kDistinctPosition = 0.35;  // [m]
 constexpr double kDistinctHeading = 0.1;    // [rad]
@@ -28,7 +34,7 @@ constexpr double kWorthwhile = 0.6;
 std::vector<Eigen::Vector2d> thinOut(const std::vector<SurfacePoint>& points) {
   std::vector<Eigen::Vector2d> thinned;
   for (const SurfacePoint& point : points) {
-    if (point.position.norm() > kReach - kMargin) continue;
+    if (point.position.norm() > kFarthest) continue;
     if (!thinned.empty() && (point.position - thinned.back()).norm() < kSpacing) continue;
     thinned.push_back(point.position);
   }
@@ -40,15 +46,28 @@ bool isNeighbour(const Pose2& a, const Pose2& b) {
          std::abs(geometry::wrapAngle(a.theta() - b.theta())) < kDistinctHeading;
 }
 
-bool isBetter(const SearchCandidate& a, const SearchCandidate& b) {
-  return a.score > b.score;
+// A pose of the search.
+struct Step {
+  double x;
+  double y;
+  double heading;
+  long sum;  // of what its points count
+};
+
+bool isBetter(const Step& a, const Step& b) {
+  return a.sum > b.sum;
 }
 
-std::vector<SearchCandidate> bestApart(std::vector<SearchCandidate>& all, std::size_t most) {
+std::vector<SearchCandidate> bestApart(std::vector<Step>& all, std::size_t points,
+                                       std::size_t most) {
   std::sort(all.begin(), all.end(), isBetter);
+  const double full = static_cast<double>(kFull) * static_cast<double>(points);
   std::vector<SearchCandidate> best;
-  for (const SearchCandidate& candidate : all) {
-    if (best.size() == most || candidate.score < kWorthwhile * all.front().score) break;
+  for (const Step& step : all) {
+    const SearchCandidate candidate{Pose2(step.x, step.y, step.heading),
+                                    static_cast<double>(step.sum) / full};
+    if (best.size() == most) break;
+    if (!best.empty() && candidate.score < kWorthwhile * best.front().score) break;
     const bool known = std::any_of(best.begin(), best.end(), [&](const SearchCandidate& other) {
       return isNeighbour(candidate.T_odom_base, other.T_odom_base);
     });
@@ -68,34 +87,57 @@ struct Grid {
 class Scorer {
  public:
   Scorer(const Raster& raster, const std::vector<Eigen::Vector2d>& points)
-      : raster_(raster), points_(points), cells_(points.size()) {}
+      : raster_(raster), points_(points) {}
 
-  void scoreAll(const Pose2& centre, const Grid& grid, std::vector<SearchCandidate>& all) {
+  // Hands each pose of the grid to `visit`, with its score.
+  template <class Visit>
+  void scoreAll(const Pose2& centre, const Grid& grid, const Visit& visit) {
+    const double step = grid.stride * raster_.cell();
     for (int k = -grid.headings; k <= grid.headings; ++k) {
-      const Pose2 turned(centre.translation(), centre.theta() + k * grid.heading_step);
-      findCells(turned);
+      const double heading = centre.theta() + k * grid.heading_step;
+      findCells(centre.translation(), heading, grid.stride * grid.positions);
       for (int y = -grid.positions; y <= grid.positions; ++y) {
         for (int x = -grid.positions; x <= grid.positions; ++x) {
-          const double score = raster_.score(cells_, grid.stride * x, grid.stride * y);
-          const Eigen::Vector2d shift = grid.stride * raster_.cell() * Eigen::Vector2d(x, y);
-          all.push_back({Pose2(turned.translation() + shift, turned.theta()), score});
+          const long sum = raster_.sum(cells_, grid.stride * x, grid.stride * y);
+          visit(Step{centre.x() + x * step, centre.y() + y * step, heading, sum});
         }
       }
     }
   }
 
  private:
-  void findCells(const Pose2& pose) {
-    const Eigen::Matrix2d rotation = pose.rotation();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      cells_[i] = raster_.cellOf(rotation * points_[i] + pose.translation());
+  void findCells(const Eigen::Vector2d& position, double heading, int margin) {
+    const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(heading).toRotationMatrix();
+    cells_.clear();
+    for (const Eigen::Vector2d& point : points_) {
+      const auto cell = raster_.indexOf(rotation * point + position, margin);
+      if (cell) cells_.push_back(*cell);
     }
   }
 
   const Raster& raster_;
   const std::vector<Eigen::Vector2d>& points_;
-  std::vector<Eigen::Vector2i> cells_;
+  std::vector<std::int32_t> cells_;
 };
+
+Step bestAbout(const Step& start, const Grid& grid, Scorer& scorer) {
+  Step best = start;
+  best.sum = -1;
+  scorer.scoreAll(Pose2(start.x, start.y, start.heading), grid, [&](const Step& step) {
+    if (step.sum > best.sum) best = step;
+  });
+  return best;
+}
+
+// The best share of them, but not fewer than a few.
+std::vector<Step> bestOf(std::vector<Step>& steps) {
+  const std::size_t wanted = std::clamp(steps.size() / kShareKept, kLeastKept, kMostKept);
+  const std::size_t kept = std::min(steps.size(), wanted);
+  std::partial_sort(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(kept), steps.end(),
+                    isBetter);
+  steps.resize(kept);
+  return steps;
+}
 
 }  // namespace
 
@@ -133,15 +175,17 @@ void Raster::paint(const Eigen::Vector2i& centre) {
   }
 }
 
-double Raster::score(const std::vector<Eigen::Vector2i>& cells, int dx, int dy) const {
-  int sum = 0;
-  for (const Eigen::Vector2i& cell : cells) {
-    const int x = cell.x() + dx;
-    const int y = cell.y() + dy;
-    if (x < 0 || y < 0 || x >= side_ || y >= side_) continue;
-    sum += cells_[static_cast<std::size_t>(y * side_ + x)];
-  }
-  return static_cast<double>(sum) / (kFull * static_cast<double>(cells.size()));
+std::optional<std::int32_t> Raster::indexOf(const Eigen::Vector2d& point_odom, int margin) const {
+  const Eigen::Vector2i cell = cellOf(point_odom);
+  if (cell.minCoeff() < margin || cell.maxCoeff() >= side_ - margin) return std::nullopt;
+  return cell.y() * side_ + cell.x();
+}
+
+long Raster::sum(const std::vector<std::int32_t>& cells, int dx, int dy) const {
+  const std::uint8_t* shifted = cells_.data() + dy * side_ + dx;
+  long sum = 0;
+  for (const std::int32_t cell : cells) sum += shifted[cell];
+  return sum;
 }
 
 void CorrelativeSearch::draw(const Submap& submap, const Eigen::Vector2d& centre_odom) {
@@ -162,17 +206,16 @@ std::vector<SearchCandidate> CorrelativeSearch::search(const std::vector<Surface
   const Grid coarse{static_cast<int>(std::ceil(window.heading / kCoarseHeading)),
                     static_cast<int>(std::ceil(window.position / coarse_.cell())), kCoarseHeading,
                     1};
-  std::vector<SearchCandidate> starts;
-  Scorer(coarse_, thinned).scoreAll(window.centre, coarse, starts);
-  const auto kept = static_cast<std::ptrdiff_t>(std::min(kKept, starts.size()));
-  std::partial_sort(starts.begin(), starts.begin() + kept, starts.end(), isBetter);
-  starts.resize(static_cast<std::size_t>(kept));
-  std::vector<SearchCandidate> all;
+  std::vector<Step> starts;
+  Scorer(coarse_, thinned).scoreAll(window.centre, coarse, [&](const Step& step) {
+    starts.push_back(step);
+  });
+  std::vector<Step> all;
   Scorer fine(fine_, thinned);
-  for (const SearchCandidate& start : starts) {
-    fine.scoreAll(start.T_odom_base, {1, 1, kFineHeading, kFineStride}, all);
+  for (const Step& start : bestOf(starts)) {
+    all.push_back(bestAbout(start, {1, 1, kFineHeading, kFineStride}, fine));
   }
-  return bestApart(all, most);
+  return bestApart(all, thinned.size(), most);
 }
 
 }  // namespace sightline::dead_reckoning

@@ -15,7 +15,9 @@ namespace {
 using geometry::Pose2;
 
 constexpr int kMaxRounds = 12;
-constexpr int kMaxSteps = 4;  // of the pose, for each choice of counterparts
+// Of the pose, for each choice of counterparts: fewer while these are provisional.
+constexpr int kMaxSteps = 4;
+constexpr int kMaxFirstSteps = 2;
 constexpr double kScaleFall = 0.4;
 constexpr double kFinalScale = 3.0;  // in standard deviations
 constexpr double kMaxReach = 0.25;   // a counterpart is sought no further than this [m]
@@ -33,6 +35,31 @@ Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
          solver.eigenvectors().transpose();
 }
+
+// A sum of weighted outer products v vᵀ: its upper half.
+struct Symmetric {
+  double xx = 0.0;
+  double xy = 0.0;
+  double xt = 0.0;
+  double yy = 0.0;
+  double yt = 0.0;
+  double tt = 0.0;
+
+  void add(double weight, const Eigen::Vector3d& v) {
+    const Eigen::Vector3d scaled = weight * v;
+    xx += scaled.x() * v.x();
+    xy += scaled.x() * v.y();
+    xt += scaled.x() * v.z();
+    yy += scaled.y() * v.y();
+    yt += scaled.y() * v.z();
+    tt += scaled.z() * v.z();
+  }
+  Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d full;
+    full << xx, xy, xt, xy, yy, yt, xt, yt, tt;
+    return full;
+  }
+};
 
 // Derivative of a residual's Jacobian by the direction of the normal.
 Eigen::Vector3d turnedJacobian(const Eigen::Vector2d& normal, const Eigen::Vector2d& arm) {
@@ -90,7 +117,8 @@ double LineMatcher::descend(const Pose2& prior, const Eigen::Matrix3d& prior_inf
                             double scale, LineMatch& match) const {
   double moved = 0.0;
   double size = 2.0;
-  for (int i = 0; i < kMaxSteps && size > 1.0; ++i) {
+  const int most = scale == finalScale() ? kMaxSteps : kMaxFirstSteps;
+  for (int i = 0; i < most && size > 1.0; ++i) {
     const NormalEquations normal = linearize(match.T_odom_base, scale);
     Eigen::Vector3d off = match.T_odom_base.coordinates() - prior.coordinates();
     off[2] = geometry::wrapAngle(off[2]);
@@ -108,20 +136,20 @@ double LineMatcher::descend(const Pose2& prior, const Eigen::Matrix3d& prior_inf
 LineMatcher::NormalEquations LineMatcher::linearize(const Pose2& pose, double scale) const {
   const Eigen::Matrix2d rotation = pose.rotation();
   const Eigen::Vector2d translation = pose.translation();
-  NormalEquations sum;
-  Eigen::Matrix3d spurious = Eigen::Matrix3d::Zero();
+  const double precision = 1.0 / (scale * scale);
+  Symmetric information;
+  Symmetric spurious;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   for (const Pair& pair : pairs_) {
     const Eigen::Vector2d arm = rotation * pair.point->position;
     const LineResidual residual = lineResidual(translation, arm, *pair.surfel);
-    const double ratio = residual.value / scale;
-    const double robust = 1.0 / (1.0 + ratio * ratio);
+    const double robust = 1.0 / (1.0 + residual.value * residual.value * precision);
     const double weight = robust * robust / (pair.point->variance + surface_variance_);
-    sum.information += weight * residual.jacobian * residual.jacobian.transpose();
-    sum.gradient += weight * residual.value * residual.jacobian;
-    const Eigen::Vector3d turned = turnedJacobian(pair.surfel->normal, arm);
-    spurious += weight * pair.surfel->normal_variance * turned * turned.transpose();
+    information.add(weight, residual.jacobian);
+    gradient += weight * residual.value * residual.jacobian;
+    spurious.add(weight * pair.surfel->normal_variance, turnedJacobian(pair.surfel->normal, arm));
   }
-  return withoutSpurious(sum, spurious);
+  return withoutSpurious({information.matrix(), gradient}, spurious.matrix());
 }
 
 // Normals that err make a straight wall look as if it showed the position along it: of the

@@ -35,7 +35,7 @@ void Submap::clear() {
 
 double Submap::add(const geometry::Pose2& T_odom_base, const Sweep& sweep, std::size_t most) {
   const Eigen::Matrix2d rotation = T_odom_base.rotation();
-  Keyframe keyframe{T_odom_base, sweep.points, RangeProfile(sweep), {}};
+  Keyframe keyframe{T_odom_base, rotation.transpose(), sweep.points, RangeProfile(sweep), {}};
   for (const SurfacePoint& point : sweep.points) {
     if (!point.hasNormal()) continue;
     keyframe.surfels.push_back({rotation * point.smoothed + T_odom_base.translation(),
@@ -103,7 +103,8 @@ const Surfel* Submap::nearest(const Eigen::Vector2d& point, const Eigen::Vector2
 Sight Submap::sightOf(const Eigen::Vector2d& point) const {
   Sight sight = Sight::kUnknown;
   for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe) {
-    const Sight here = keyframe->profile.at(keyframe->T_odom_base.inverse() * point);
+    const Sight here =
+        keyframe->profile.at(keyframe->R_base_odom * (point - keyframe->T_odom_base.translation()));
     if (here == Sight::kFree || here == Sight::kSurface) return here;
     if (here == Sight::kHidden) sight = here;
   }

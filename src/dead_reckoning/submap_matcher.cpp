@@ -34,6 +34,8 @@ constexpr std::size_t kEvidence = 20;
 // near.
 constexpr double kDistinctPosition = 0.15;  // [m]
 constexpr double kDistinctHeading = 0.06;   // [rad]
+constexpr double kNeighbourPosition = 0.25;
+constexpr double kNeighbourHeading = 0.1;
 constexpr double kCostGap = 0.05;
 // So many scans that fit a fresh reference alone make it the one.
 constexpr int kTrusted = 3;
@@ -47,6 +49,12 @@ Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
 bool isDistinct(const Pose2& a, const Pose2& b) {
   const Eigen::Vector3d off = difference(a, b);
   return off.head<2>().norm() > kDistinctPosition || std::abs(off[2]) > kDistinctHeading;
+}
+
+// Whether refining one would lead to the other.
+bool isNeighbour(const Pose2& a, const Pose2& b) {
+  const Eigen::Vector3d off = difference(a, b);
+  return off.head<2>().norm() < kNeighbourPosition && std::abs(off[2]) < kNeighbourHeading;
 }
 
 bool isNear(const Pose2& pose, const UncertainPose2& prior) {
@@ -149,6 +157,11 @@ std::vector<SubmapMatcher::Hypothesis> SubmapMatcher::search(Reference& referenc
   std::vector<Hypothesis> hypotheses;
   for (const SearchCandidate& candidate :
        reference.search.search(sweep.points, reference.submap, wide, kCandidates)) {
+    const bool known =
+        std::any_of(hypotheses.begin(), hypotheses.end(), [&](const Hypothesis& hypothesis) {
+          return isNeighbour(hypothesis.match.T_odom_base, candidate.T_odom_base);
+        });
+    if (known) continue;
     hypotheses.push_back(
         refine(reference.submap, sweep, profile, candidate.T_odom_base, prior, kSearchScale));
   }

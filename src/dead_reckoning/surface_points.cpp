@@ -78,13 +78,17 @@ Line fit(const Sums& sums, std::size_t count) {
   const double xx = sums.xx / n - centre.x() * centre.x();
   const double yy = sums.yy / n - centre.y() * centre.y();
   const double xy = sums.xy / n - centre.x() * centre.y();
-  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
-  const double smaller = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy);
+  const double half = 0.5 * (xx - yy);
+  const double root = std::sqrt(half * half + xy * xy);
+  const double smaller = 0.5 * (xx + yy) - root;
+  // Of the two equations for the eigenvector, the one that does not cancel.
+  const Eigen::Vector2d normal =
+      half > 0.0 ? Eigen::Vector2d(-xy, half + root) : Eigen::Vector2d(root - half, -xy);
   // Two parameters were taken from the points.
   const double free = std::max(1.0, n - 2.0);
   const double larger = xx + yy - smaller;
   const double mean_square = std::max(0.0, smaller) * n / free;
-  return {centre, {-std::sin(direction), std::cos(direction)}, mean_square, n * larger};
+  return {centre, normal.normalized(), mean_square, n * larger};
 }
 
 class SurfaceFinder {

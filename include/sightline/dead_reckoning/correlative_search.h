@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,11 +23,14 @@ class Raster {
 
   void draw(const std::vector<Surfel>& surfels, const Eigen::Vector2d& centre_odom);
   double cell() const { return cell_; }
-  Eigen::Vector2i cellOf(const Eigen::Vector2d& point_odom) const;
-  /// Mean over the cells, moved by (dx, dy) cells, in [0, 1].
-  double score(const std::vector<Eigen::Vector2i>& cells, int dx, int dy) const;
+  /// Of the cell of a point, if that is so many cells inside the border.
+  std::optional<std::int32_t> indexOf(const Eigen::Vector2d& point_odom, int margin) const;
+  /// Of what the cells count, moved by (dx, dy) cells: no further than the margin they were found
+  /// with.
+  long sum(const std::vector<std::int32_t>& cells, int dx, int dy) const;
 
  private:
+  Eigen::Vector2i cellOf(const Eigen::Vector2d& point_odom) const;
   void paint(const Eigen::Vector2i& centre);
 
   double cell_;

@@ -24,6 +24,7 @@ struct Surfel {
 /// A scan of the reference.
 struct Keyframe {
   geometry::Pose2 T_odom_base;
+  Eigen::Matrix2d R_base_odom;
   std::vector<SurfacePoint> points;  // in its base
   RangeProfile profile;              // in its base
   std::vector<Surfel> surfels;
