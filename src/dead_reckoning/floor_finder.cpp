@@ -23,7 +23,7 @@ constexpr double kBehindAt = 0.1;
 constexpr double kBehindShare = 0.005;
 // A wall is seen through now and then, by a heading that errs or past its edge; but the floor
 // is often enough taken for the walls that it ends at.
-constexpr double kSupportPerContradiction = 0.6;
+constexpr double kSupportPerContradiction = 0.65;
 
 // Slope of a scan's plane over the distance of a level surface [1/m].
 using Slope = Eigen::Vector2d;
@@ -67,14 +67,20 @@ std::optional<std::size_t> firstOfFour(const scan::ScanGeometry& geometry, doubl
   return index - 2;
 }
 
-struct Evidence {
+struct Sightings {
   int support = 0;
   int contradiction = 0;
+
+  int count() const { return support + contradiction; }
+  void operator+=(const Sightings& other) {
+    support += other.support;
+    contradiction += other.contradiction;
+  }
 };
 
 // What an earlier scan says of a point, given in its sensor's frame: that it saw it, or that it
 // saw what lies behind.
-void weigh(const scan::Scan& earlier, const Eigen::Vector2d& point, Evidence& evidence) {
+void consult(const scan::Scan& earlier, const Eigen::Vector2d& point, Sightings& sightings) {
   const auto first = firstOfFour(*earlier.geometry, std::atan2(point.y(), point.x()));
   if (!first) return;
   const double range = point.norm();
@@ -85,8 +91,8 @@ void weigh(const scan::Scan& earlier, const Eigen::Vector2d& point, Evidence& ev
     if (std::abs(sight - range) < kSameAt + kSameShare * range) was_seen = true;
     if (sight < range + kBehindAt + kBehindShare * range) is_open = false;
   }
-  if (was_seen) ++evidence.support;
-  if (!was_seen && is_open) ++evidence.contradiction;
+  if (was_seen) ++sightings.support;
+  if (!was_seen && is_open) ++sightings.contradiction;
 }
 
 }  // namespace
@@ -133,19 +139,28 @@ std::optional<Eigen::Vector2d> FloorFinder::bestSlope(const scan::Scan& scan,
   return best;
 }
 
-bool FloorFinder::isFloor(const scan::Scan& scan, const Pose2& T_odom_sensor,
-                          const Beams& line) const {
-  Evidence evidence;
+// The whole line, or, where it is a wall's, what the floor in front of it has of it.
+FloorFinder::Beams FloorFinder::floorOf(const scan::Scan& scan, const Pose2& T_odom_sensor,
+                                        const Beams& line) const {
+  constexpr int kSurelyOpen = 2;  // scans that saw through, and none that saw it
+  std::vector<Sightings> of_beams(line.size());
   for (const Remembered& earlier : memory_) {
     const Pose2 T_earlier_now = geometry::between(earlier.T_odom_sensor, T_odom_sensor);
-    for (const std::size_t beam : line) {
-      weigh(earlier.scan, T_earlier_now * scan.point(beam), evidence);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      consult(earlier.scan, T_earlier_now * scan.point(line[i]), of_beams[i]);
     }
   }
+  Sightings sightings;
+  for (const Sightings& of_beam : of_beams) sightings += of_beam;
   // Where hardly anything is known, it is a wall that has just come into view.
-  const int known = evidence.support + evidence.contradiction;
-  return 2 * known > static_cast<int>(line.size()) &&
-         evidence.contradiction > kSupportPerContradiction * evidence.support;
+  if (2 * sightings.count() <= static_cast<int>(line.size())) return {};
+  if (sightings.contradiction > kSupportPerContradiction * sightings.support) return line;
+  Beams open;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto& [support, contradiction] = of_beams[i];
+    if (support == 0 && contradiction >= kSurelyOpen) open.push_back(line[i]);
+  }
+  return open;
 }
 
 std::vector<bool> FloorFinder::find(const scan::Scan& scan, const Pose2& T_odom_sensor) const {
@@ -158,8 +173,7 @@ std::vector<bool> FloorFinder::find(const scan::Scan& scan, const Pose2& T_odom_
         beams.begin(), beams.end(), [&](std::size_t beam) { return isOn(*slope, scan, beam); });
     const Beams line(beams.begin(), rest);
     beams.erase(beams.begin(), rest);
-    if (!isFloor(scan, T_odom_sensor, line)) continue;
-    for (const std::size_t beam : line) on_floor[beam] = true;
+    for (const std::size_t beam : floorOf(scan, T_odom_sensor, line)) on_floor[beam] = true;
   }
   return on_floor;
 }

@@ -40,8 +40,8 @@ class FloorFinder {
 
   Beams farBeams(const scan::Scan& scan) const;
   std::optional<Eigen::Vector2d> bestSlope(const scan::Scan& scan, const Beams& beams) const;
-  bool isFloor(const scan::Scan& scan, const geometry::Pose2& T_odom_sensor,
-               const Beams& line) const;
+  Beams floorOf(const scan::Scan& scan, const geometry::Pose2& T_odom_sensor,
+                const Beams& line) const;
 
   FloorConfig config_;
   std::deque<Remembered> memory_;
