@@ -1,9 +1,11 @@
 #include "sightline/pipeline/scan_odometry.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sightline::pipeline {
 
+using dead_reckoning::FloorConfig;
 using dead_reckoning::MotionPrior;
 using geometry::Pose2;
 
@@ -49,6 +51,39 @@ MotionPrior wheelPrior(const WheelsConfig& config, const Pose2& T_before_now) {
   prior.covariance.diagonal() += sigmas.cwiseAbs2();
   return prior;
 }
+
+namespace {
+
+double meanRange(const scan::Scan& scan) {
+  double sum = 0.0;
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    if (!scan.isValid(i)) continue;
+    sum += scan.ranges[i];
+    ++valid;
+  }
+  return valid > 0 ? sum / static_cast<double>(valid) : 0.0;
+}
+
+// A scanner that nods by α sees what is ahead farther by the factor 1 / cos α. No scan shows that,
+// and it does not add up: the pose errs by it, and a step at both its ends.
+void addUnknownTilt(const FloorConfig& config, const scan::Scan& scan, const Pose2& T_base_sensor,
+                    double elapsed, dead_reckoning::DeadReckoningUpdate& update) {
+  constexpr double kUsualShare = 0.4;  // of the largest tilt
+  const double tilt = kUsualShare * config.max_tilt;
+  const double sigma = 0.5 * tilt * tilt * meanRange(scan);
+  const auto along = [&](double heading) {
+    const Eigen::Vector3d ahead(std::cos(heading), std::sin(heading), 0.0);
+    return Eigen::Matrix3d(sigma * sigma * ahead * ahead.transpose());
+  };
+  const double heading_base = T_base_sensor.theta();
+  update.pose.covariance += along(update.pose.mean.theta() + heading_base);
+  if (elapsed <= 0.0) return;
+  update.step.covariance += 2.0 * along(heading_base);
+  update.twist_covariance += 2.0 / (elapsed * elapsed) * along(heading_base);
+}
+
+}  // namespace
 
 ScanOdometry::ScanOdometry(const ScanOdometryConfig& config)
     : config_(config), reckoner_(config.matching), finder_(config.floor) {
@@ -132,6 +167,8 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
     update = reckoner_.update(dead_reckoning::without(scan, on_floor_), T_base_sensor, prior);
   }
   finder_.remember(scan, update->pose.mean * T_base_sensor);
+  const double elapsed = before_ ? 1e-9 * static_cast<double>(scan.stamp - before_->stamp) : 0.0;
+  addUnknownTilt(config_.floor, scan, T_base_sensor, elapsed, *update);
   return update;
 }
 
