@@ -22,6 +22,12 @@ constexpr double kSameHeading = 0.02;
 // Error of a point: the translation is a multiple of the resolution, the heading of a bin; shared
 // by all points, and so much larger than of one [m].
 constexpr double kPointSigma = 0.3;
+// The field is drawn for squares up to this half side [m].
+constexpr double kWidest = 1.28;
+// Cells above this are wide [m]; D and what does not count, as shares of a wide cell.
+constexpr double kWideCell = 0.1;
+constexpr double kTruncationPerCell = 1.5;
+constexpr double kSlackPerCell = 0.4;
 
 std::vector<Eigen::Vector2d> turned(const Sweep& sweep, double heading) {
   const Eigen::Matrix2d rotation = Pose2(0.0, 0.0, heading).rotation();
@@ -38,10 +44,16 @@ double halfSide(double position, double resolution) {
 
 }  // namespace
 
+double fieldDistance(double max_distance, double half) {
+  constexpr double kFirstCell = 0.5;  // of half the side
+  return std::max(max_distance, kTruncationPerCell * kFirstCell * half);
+}
+
 CellCost translationCost(const DistanceField& field, const std::vector<Eigen::Vector2d>& points,
                          double max_distance) {
-  return [&field, &points, max_distance](const Eigen::Vector2d& position, double) {
-    return field.cost(points, position, max_distance);
+  return [&field, &points, max_distance](const Eigen::Vector2d& position, double cell) {
+    return field.cost(points, position, std::max(max_distance, kTruncationPerCell * cell),
+                      cell > kWideCell ? kSlackPerCell * cell : 0.0);
   };
 }
 
@@ -113,7 +125,7 @@ double HistogramMatcher::learn(const Sweep& sweep, const Pose2& T_odom_base, Mat
   has_reference_ = true;
   T_odom_reference_ = T_odom_base;
   reference_histograms_ = histograms(sweep);
-  field_.draw(sweep.points, config_.max_distance);
+  field_.draw(sweep.points, fieldDistance(config_.max_distance, kWidest));
   return 1.0;
 }
 

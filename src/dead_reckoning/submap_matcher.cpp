@@ -154,6 +154,12 @@ std::vector<SubmapMatcher::Hypothesis> SubmapMatcher::search(Reference& referenc
   SearchWindow wide = window;
   wide.position = std::max(window.position, kLeastPosition);
   wide.heading = std::max(window.heading, kLeastHeading);
+  // A prediction that misled is believed as far as the window goes.
+  UncertainPose2 doubted = prior;
+  const double position = kLeastPosition / 3.0;
+  const double heading = kLeastHeading / 3.0;
+  doubted.covariance +=
+      Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
   std::vector<Hypothesis> hypotheses;
   for (const SearchCandidate& candidate :
        reference.search.search(sweep.points, reference.submap, wide, kCandidates)) {
@@ -163,7 +169,7 @@ std::vector<SubmapMatcher::Hypothesis> SubmapMatcher::search(Reference& referenc
         });
     if (known) continue;
     hypotheses.push_back(
-        refine(reference.submap, sweep, profile, candidate.T_odom_base, prior, kSearchScale));
+        refine(reference.submap, sweep, profile, candidate.T_odom_base, doubted, kSearchScale));
   }
   return hypotheses;
 }

@@ -73,13 +73,14 @@ void DistanceField::paint(const Eigen::Vector2d& point) {
 }
 
 double DistanceField::cost(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& shift,
-                           double truncation) const {
+                           double truncation, double slack) const {
   double sum = 0.0;
   for (const Eigen::Vector2d& point : points) {
     const int x = cellIndex(point.x() + shift.x());
     const int y = cellIndex(point.y() + shift.y());
-    sum += isInside(x, y) ? std::min(truncation, static_cast<double>(distances_[flat(x, y)]))
-                          : truncation;
+    const double distance =
+        isInside(x, y) ? static_cast<double>(distances_[flat(x, y)]) : max_distance_;
+    sum += std::clamp(distance - slack, 0.0, truncation);
   }
   return sum / (truncation * static_cast<double>(std::max<std::size_t>(1, points.size())));
 }

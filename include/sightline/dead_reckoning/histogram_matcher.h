@@ -42,9 +42,12 @@ class HistogramMatcher : public Matcher {
   DistanceField field_;
 };
 
-/// What the searcher minimises: eq. 4.8 with a D that is no smaller than `max_distance` and than
-/// what the cells of the first iterations miss, so that the right cell is seen from its middle.
+/// What the searcher minimises: eq. 4.8 with D = `max_distance`. In wide cells D is as large as
+/// these, and a distance that the position may be off within the cell does not count, so that the
+/// right cell is known by its middle. The field has to be drawn with fieldDistance.
 CellCost translationCost(const DistanceField& field, const std::vector<Eigen::Vector2d>& points,
                          double max_distance);
+/// @param half  of the square that is searched [m]
+double fieldDistance(double max_distance, double half);
 
 }  // namespace sightline::dead_reckoning

@@ -23,9 +23,11 @@ class DistanceField {
   void draw(const std::vector<SurfacePoint>& points, double max_distance);
 
   /// Mean of min(d, D)/D over points [m, in the frame of the reference] (eq. 4.8, divided by their
-  /// number), D being at most what the field was drawn with. A point off the field counts 1.
+  /// number). D is at most what the field was drawn with; a point off the field counts 1.
+  ///
+  /// @param slack  taken from each distance [m]: the shift may be this far off
   double cost(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& shift,
-              double truncation) const;
+              double truncation, double slack = 0.0) const;
 
  private:
   void paint(const Eigen::Vector2d& point);
