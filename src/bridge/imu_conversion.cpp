@@ -12,7 +12,7 @@ namespace {
 bool hasOrientation(const sensor_msgs::Imu& message) {
   const auto& q = message.orientation;
   return message.orientation_covariance[0] >= 0.0 &&
-         Eigen::Vector4d(q.x, q.y, q.z, q.w).norm() > 0.5;
+         !(Eigen::Vector4d(q.x, q.y, q.z, q.w).norm() < 0.5);
 }
 
 void checkImu(const sensor_msgs::Imu& message) {
@@ -52,6 +52,25 @@ pipeline::ImuReading readImu(const sensor_msgs::Imu& message,
         (rate_base.y() * std::sin(roll) + rate_base.z() * std::cos(roll)) / std::cos(pitch);
   }
   return reading;
+}
+
+sensor_msgs::Imu toImuMessage(std::int64_t stamp, const std::string& frame,
+                              const geometry::Attitude& attitude, double turn_rate) {
+  const Eigen::Matrix3d R_level_imu = attitude.rotation();
+  const Eigen::Quaterniond orientation(R_level_imu);
+  const Eigen::Vector3d rate = R_level_imu.transpose() * Eigen::Vector3d(0.0, 0.0, turn_rate);
+  sensor_msgs::Imu message;
+  message.header.stamp = timeOf(stamp);
+  message.header.frame_id = frame;
+  message.orientation.x = orientation.x();
+  message.orientation.y = orientation.y();
+  message.orientation.z = orientation.z();
+  message.orientation.w = orientation.w();
+  message.angular_velocity.x = rate.x();
+  message.angular_velocity.y = rate.y();
+  message.angular_velocity.z = rate.z();
+  message.linear_acceleration_covariance[0] = -1.0;
+  return message;
 }
 
 }  // namespace sightline::bridge

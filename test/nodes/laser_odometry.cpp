@@ -15,6 +15,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "nodes/recorder.h"
+#include "sightline/bridge/imu_conversion.h"
 #include "sightline/bridge/odometry_conversion.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/scan_conversion.h"
@@ -158,19 +159,9 @@ class Robot {
   sensor_msgs::Imu imuMessage() const {
     const auto time = simulation_.time();
     const Pose2 earlier = truthAt(time - simulation::Simulation::kStep);
-    const auto attitude = simulation_.bodyMotion(time).attitude;
-    const Eigen::Quaterniond orientation(attitude.rotation());
-    sensor_msgs::Imu message;
-    message.header.stamp = now();
-    message.header.frame_id = kind_.prefix + "base_link";
-    const double rate = geometry::between(earlier, truthAt(time)).theta() / 0.005;
-    message.angular_velocity.y = rate * std::cos(attitude.pitch) * std::sin(attitude.roll);
-    message.angular_velocity.z = rate * std::cos(attitude.pitch) * std::cos(attitude.roll);
-    message.orientation.x = orientation.x();
-    message.orientation.y = orientation.y();
-    message.orientation.z = orientation.z();
-    message.orientation.w = orientation.w();
-    return message;
+    const double turned = geometry::between(earlier, truthAt(time)).theta();
+    return bridge::toImuMessage(bridge::nanoseconds(now()), kind_.prefix + "base_link",
+                                simulation_.bodyMotion(time).attitude, turned / 0.005);
   }
 
   Kind kind_;
@@ -327,7 +318,8 @@ TEST(LaserOdometryNode, WheelsBringItThroughScansThatSayNothing) {
   robot.sends_wheels = true;
   std_srvs::Trigger call;
   ASSERT_TRUE(ros::service::call("laser_odometry/reset", call));
-  robot.nextScan();  // so that the wheels are known at the first one
+  robot.nextScan();
+  ros::WallDuration(0.3).sleep();  // for the node to know of the wheels before the first scan
   const auto begun = robot.begin();
   EXPECT_LT(geometry::between(robot.truth, bridge::toPose2(begun.pose.pose)).translation().norm(),
             1e-3)

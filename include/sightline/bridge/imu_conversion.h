@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include <Eigen/Geometry>
 
 #include <sensor_msgs/Imu.h>
@@ -13,5 +16,10 @@ namespace sightline::bridge {
 /// the turn rate is the one about the base's z axis. Throws std::invalid_argument with the reason:
 /// a stamp of zero, numbers that are not finite, no angular velocity.
 pipeline::ImuReading readImu(const sensor_msgs::Imu& message, const Eigen::Quaterniond& R_base_imu);
+
+/// The reading of a sensor that sits straight on the base: its attitude, and the turn rate of its
+/// heading [rad/s]; accelerations are not known.
+sensor_msgs::Imu toImuMessage(std::int64_t stamp, const std::string& frame,
+                              const geometry::Attitude& attitude, double turn_rate);
 
 }  // namespace sightline::bridge
