@@ -8,6 +8,7 @@
 #include "odometry/body_worn.h"
 #include "odometry/consistency.h"
 #include "odometry/freiburg.h"
+#include "odometry/node.h"
 #include "odometry/searcher.h"
 
 int main() {
@@ -23,5 +24,6 @@ int main() {
   }
   bench::measureConsistency();
   bench::measureBodyWorn();
+  bench::measureNode();
   return 0;
 }

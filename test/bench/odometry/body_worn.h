@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
-#include "odometry/building.h"
+#include "building.h"
 #include "sightline/config/node.h"
 #include "sightline/pipeline/scan_odometry.h"
 #include "sightline/simulation/simulation.h"
