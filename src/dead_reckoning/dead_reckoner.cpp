@@ -55,6 +55,10 @@ class OwnMatcher {
   std::unique_ptr<Matcher> matcher_;
 };
 
+bool isLonger(const Eigen::Vector3d& moved) {
+  return moved.head<2>().norm() > kSweepPosition || std::abs(moved[2]) > kSweepHeading;
+}
+
 UncertainPose2 bounded(UncertainPose2 step) {
   step.covariance.diagonal().array() += kLeastSigma * kLeastSigma;
   return step;
@@ -77,6 +81,7 @@ class DeadReckoner::Impl {
                      double elapsed);
   void takeMatch(const MatchOutcome& outcome, const UncertainPose2& predicted_step, double elapsed,
                  DeadReckoningUpdate& update);
+  UncertainPose2 predict(const std::optional<MotionPrior>& prior, double elapsed) const;
   Eigen::Vector3d accelerationTo(const Eigen::Vector3d& twist, double elapsed) const;
   bool isPossible(const Pose2& T_odom_base, double elapsed) const;
   void learn(MatchState state);
@@ -100,20 +105,17 @@ std::optional<DeadReckoningUpdate> DeadReckoner::Impl::update(
     const scan::Scan& scan, const Pose2& T_base_sensor, const std::optional<MotionPrior>& prior) {
   if (stamp_ && scan.stamp <= *stamp_) return std::nullopt;
   const double elapsed = stamp_ ? 1e-9 * static_cast<double>(scan.stamp - *stamp_) : 0.0;
-  stamp_ = scan.stamp;
+  const UncertainPose2 step = predict(prior, elapsed);
+  sweep_ = readSweep(scan, T_base_sensor, twistOf(step, elapsed).mean);
   DeadReckoningUpdate update;
   update.stamp = scan.stamp;
-  if (elapsed == 0.0 || elapsed > config_.max_gap) matcher_->clear();
-  if (!matcher_->hasReference()) {
-    sweep_ = readSweep(scan, T_base_sensor, twist_.mean);
-  } else {
-    const UncertainPose2 step =
-        bounded(prior ? UncertainPose2{prior->T_before_now, prior->covariance}
-                      : predictStep(config_.carrier, twist_, elapsed));
-    MatchOutcome outcome = match(scan, T_base_sensor, step, elapsed);
-    if (!isPossible(outcome.T_odom_base, elapsed)) outcome.state = MatchState::kFailed;
+  if (!stamp_ || elapsed > config_.max_gap) matcher_->clear();
+  if (stamp_) {
+    const MatchOutcome outcome =
+        matcher_->hasReference() ? match(scan, T_base_sensor, step, elapsed) : MatchOutcome();
     takeMatch(outcome, step, elapsed, update);
   }
+  stamp_ = scan.stamp;
   learn(update.state);
   update.beams = sweep_.points.size();
   update.pose = pose();
@@ -122,29 +124,32 @@ std::optional<DeadReckoningUpdate> DeadReckoner::Impl::update(
   return update;
 }
 
+UncertainPose2 DeadReckoner::Impl::predict(const std::optional<MotionPrior>& prior,
+                                           double elapsed) const {
+  if (prior) return bounded({prior->T_before_now, prior->covariance});
+  return bounded(predictStep(config_.carrier, twist_, elapsed));
+}
+
 MatchOutcome DeadReckoner::Impl::match(const scan::Scan& scan, const Pose2& T_base_sensor,
                                        const UncertainPose2& step, double elapsed) {
   const UncertainPose2 prior = geometry::compose({T_odom_base_, covariance_}, step);
   const SearchWindow window = windowOf(config_.carrier, prior, elapsed + bridged_);
-  const Eigen::Vector3d predicted = step.mean.log() / elapsed;
-  sweep_ = readSweep(scan, T_base_sensor, predicted);
   MatchOutcome outcome = matcher_->match(sweep_, prior, window);
   const double duration = scan.geometry->timeOffsets().back();
-  if (duration == 0.0 || !scan.sensor_motion.empty() || outcome.state == MatchState::kFailed) {
-    return outcome;
+  if (duration != 0.0 && scan.sensor_motion.empty() && outcome.state != MatchState::kFailed) {
+    const Eigen::Vector3d found =
+        geometry::between(T_odom_base_, outcome.T_odom_base).log() / elapsed;
+    const Eigen::Vector3d acceleration = accelerationTo(found, elapsed);
+    // From the middle of the step to that of the sweep.
+    const Eigen::Vector3d during = found + 0.5 * (elapsed + duration) * acceleration;
+    if (isLonger(duration * (during - step.mean.log() / elapsed))) {
+      sweep_ = readSweep(scan, T_base_sensor, during);
+      outcome = matcher_->match(sweep_, prior, window);
+    }
+    const Eigen::Vector3d unsure = kSweepUnsure * duration * elapsed * acceleration;
+    outcome.spread += unsure.cwiseAbs2().asDiagonal();
   }
-  const Eigen::Vector3d found =
-      geometry::between(T_odom_base_, outcome.T_odom_base).log() / elapsed;
-  const Eigen::Vector3d acceleration = accelerationTo(found, elapsed);
-  // From the middle of the step to that of the sweep.
-  const Eigen::Vector3d during = found + 0.5 * (elapsed + duration) * acceleration;
-  const Eigen::Vector3d moved = duration * (during - predicted);
-  if (moved.head<2>().norm() > kSweepPosition || std::abs(moved[2]) > kSweepHeading) {
-    sweep_ = readSweep(scan, T_base_sensor, during);
-    outcome = matcher_->match(sweep_, prior, window);
-  }
-  const Eigen::Vector3d unsure = kSweepUnsure * duration * elapsed * acceleration;
-  outcome.spread += unsure.cwiseAbs2().asDiagonal();
+  if (!isPossible(outcome.T_odom_base, elapsed)) outcome.state = MatchState::kFailed;
   return outcome;
 }
 

@@ -27,14 +27,9 @@ constexpr double kOverhang = 0.03;
 constexpr double kSettled = 3e-4;      // [m]
 constexpr double kTurnSettled = 1e-4;  // [rad]
 constexpr double kKeepsPairs = 10.0;
+// A direction of which no larger share of the information is real shows nothing: S has errors, too.
+constexpr double kLeastShare = 0.3;
 constexpr double kLeastInformation = 1e-3;  // where no beam says anything [1/m², 1]
-
-Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(matrix);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         solver.eigenvectors().transpose();
-}
 
 // A sum of weighted outer products v vᵀ: its upper half.
 struct Symmetric {
@@ -153,14 +148,21 @@ LineMatcher::NormalEquations LineMatcher::linearize(const Pose2& pose, double sc
 }
 
 // Normals that err make a straight wall look as if it showed the position along it: of the
-// information I only T = I - S is there, while the gradient has the noise of all of I. The error
-// that it leads to, T⁻¹ g, has the information T I⁻¹ T.
+// information I only I - S is there, while the gradient has the noise of all of I. In the axes in
+// which I is the identity, a direction of which the share λ is real has the error g/λ, of
+// information λ².
 LineMatcher::NormalEquations LineMatcher::withoutSpurious(const NormalEquations& sum,
                                                           const Eigen::Matrix3d& spurious) {
-  const Eigen::Matrix3d real = positivePart(sum.information - spurious);
   const Eigen::Matrix3d regular = sum.information + kLeastInformation * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d share = real * regular.inverse();
-  return {share * real, share * sum.gradient};
+  const Eigen::Matrix3d root = regular.llt().matrixL();
+  const Eigen::Matrix3d whiten = root.inverse();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(whiten * (sum.information - spurious) * whiten.transpose());
+  const Eigen::Vector3d share =
+      ((solver.eigenvalues().array() - kLeastShare) / (1.0 - kLeastShare)).max(0.0);
+  const Eigen::Matrix3d axes = root * solver.eigenvectors();
+  return {axes * share.cwiseAbs2().asDiagonal() * axes.transpose(),
+          axes * share.asDiagonal() * solver.eigenvectors().transpose() * whiten * sum.gradient};
 }
 
 void LineMatcher::listResiduals(const std::vector<SurfacePoint>& points, LineMatch& match) const {

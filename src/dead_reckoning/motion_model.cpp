@@ -34,6 +34,7 @@ Eigen::Vector3d possible(const CarrierConfig& carrier, const Eigen::Vector3d& tw
 }  // namespace
 
 Twist twistOf(const geometry::UncertainPose2& step, double elapsed) {
+  if (elapsed <= 0.0) return {};
   const Eigen::Vector3d tangent = step.mean.log();
   // d log / d coordinates: the group's own, with its translation along the axes of the start.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();

@@ -26,8 +26,9 @@ constexpr double kNearPrior = 25.0;  // squared Mahalanobis distance
 constexpr double kLeastPosition = 0.3;  // [m]
 constexpr double kLeastHeading = 0.3;   // [rad]
 constexpr std::size_t kCandidates = 8;
-constexpr double kLocalScale = 0.2;   // [m]
-constexpr double kSearchScale = 0.3;  // [m]
+constexpr std::size_t kNarrowCandidates = 3;  // where the window is narrow
+constexpr double kLocalScale = 0.2;           // [m]
+constexpr double kSearchScale = 0.3;          // [m]
 // Fewer points than this say nothing.
 constexpr std::size_t kEvidence = 20;
 // Two poses further apart than this are two explanations, and ambiguous where their costs are this
@@ -94,6 +95,7 @@ MatchOutcome SubmapMatcher::match(const Sweep& sweep, const UncertainPose2& prio
 }
 
 double SubmapMatcher::learn(const Sweep& sweep, const Pose2& T_odom_base, MatchState state) {
+  if (sweep.points.size() < kEvidence) return 0.0;
   if (trusted_.submap.empty()) return addKeyframe(trusted_, sweep, T_odom_base);
   if (matched_fresh_) {
     const double added = addKeyframe(fresh_, sweep, T_odom_base);
@@ -108,7 +110,6 @@ double SubmapMatcher::learn(const Sweep& sweep, const Pose2& T_odom_base, MatchS
     if (!fresh_.submap.empty()) fresh_ = {};
     return addKeyframe(trusted_, sweep, T_odom_base);
   }
-  if (sweep.points.size() < kEvidence) return 0.0;
   fresh_ = {};
   return addKeyframe(fresh_, sweep, T_odom_base);
 }
@@ -161,8 +162,9 @@ std::vector<SubmapMatcher::Hypothesis> SubmapMatcher::search(Reference& referenc
   doubted.covariance +=
       Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
   std::vector<Hypothesis> hypotheses;
+  const std::size_t most = isNarrow(window) ? kNarrowCandidates : kCandidates;
   for (const SearchCandidate& candidate :
-       reference.search.search(sweep.points, reference.submap, wide, kCandidates)) {
+       reference.search.search(sweep.points, reference.submap, wide, most)) {
     const bool known =
         std::any_of(hypotheses.begin(), hypotheses.end(), [&](const Hypothesis& hypothesis) {
           return isNeighbour(hypothesis.match.T_odom_base, candidate.T_odom_base);

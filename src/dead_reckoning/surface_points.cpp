@@ -13,9 +13,9 @@ namespace {
 using geometry::Pose2;
 
 // A surface is fitted over this length to either side, or over so many beams [m].
-constexpr double kHalfLength = 0.15;
+constexpr double kHalfLength = 0.25;
 constexpr std::size_t kMinHalf = 3;
-constexpr std::size_t kMaxHalf = 12;
+constexpr std::size_t kMaxHalf = 20;
 // Neighbours further apart than a surface seen at 5 degrees would have them are on two surfaces.
 constexpr double kGrazing = 0.087;
 constexpr double kStep = 0.05;  // [m]
@@ -131,7 +131,7 @@ class SurfaceFinder {
     Line best;
     for (std::size_t half = std::clamp(wanted, kMinHalf, kMaxHalf); half > 0; half /= 2) {
       fitAbout(i, first, end, half, best);
-      if (best.mean_square < kStraight * kStraight) break;
+      if (best.mean_square < 2.0 * point.variance) break;
     }
     if (best.mean_square > kStraight * kStraight) return;
     const bool towards = best.normal.dot(sensor_ - point.position) > 0.0;

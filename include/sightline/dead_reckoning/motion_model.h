@@ -16,7 +16,7 @@ struct Twist {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-/// The twist that makes a step in so many seconds.
+/// The twist that makes a step in so many seconds; none in no time.
 Twist twistOf(const geometry::UncertainPose2& step, double elapsed);
 
 /// What a carrier does in the next so many seconds: a velocity that wanders with the carrier's
