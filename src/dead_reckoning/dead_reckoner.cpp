@@ -44,17 +44,6 @@ std::unique_ptr<Matcher> makeMatcher(const DeadReckonerConfig& config) {
   return std::make_unique<SubmapMatcher>(config.submap);
 }
 
-/// A matcher that is copied with whoever has it.
-class OwnMatcher {
- public:
-  explicit OwnMatcher(std::unique_ptr<Matcher> matcher) : matcher_(std::move(matcher)) {}
-  OwnMatcher(const OwnMatcher& other) : matcher_(other.matcher_->clone()) {}
-  Matcher* operator->() const { return matcher_.get(); }
-
- private:
-  std::unique_ptr<Matcher> matcher_;
-};
-
 bool isLonger(const Eigen::Vector3d& moved) {
   return moved.head<2>().norm() > kSweepPosition || std::abs(moved[2]) > kSweepHeading;
 }
@@ -86,6 +75,17 @@ class DeadReckoner::Impl {
   bool isPossible(const Pose2& T_odom_base, double elapsed) const;
   void learn(MatchState state);
   UncertainPose2 pose() const;
+
+  /// A matcher that is copied with whoever has it.
+  class OwnMatcher {
+   public:
+    explicit OwnMatcher(std::unique_ptr<Matcher> matcher) : matcher_(std::move(matcher)) {}
+    OwnMatcher(const OwnMatcher& other) : matcher_(other.matcher_->clone()) {}
+    Matcher* operator->() const { return matcher_.get(); }
+
+   private:
+    std::unique_ptr<Matcher> matcher_;
+  };
 
   DeadReckonerConfig config_;
   OwnMatcher matcher_;

@@ -12,7 +12,7 @@ using geometry::Pose2;
 // Positions are first so many steps apart, then half of that, down to one.
 constexpr int kCoarsest = 4;
 // A pose that matches less than this share of the points explains nothing.
-constexpr double kLeastShare = 0.3;
+constexpr double kFewestCounted = 0.3;
 // Below this share of matching points the least squares may make it worse.
 constexpr double kCorrectedShare = 0.5;
 
@@ -138,7 +138,7 @@ MatchOutcome PoseSpaceMatcher::match(const Sweep& sweep, const geometry::Uncerta
   around.centre = geometry::between(T_odom_reference_, window.centre);
   const Correlation best = correlatePoses(sweep.points, reference_, around, config_);
   outcome.inliers = static_cast<double>(best.count) / static_cast<double>(sweep.points.size());
-  if (outcome.inliers < kLeastShare) return outcome;
+  if (outcome.inliers < kFewestCounted) return outcome;
   Pose2 T_reference_base = best.T_reference_base;
   if (outcome.inliers > kCorrectedShare) {
     const auto corrected = fitting::alignPoints(pairsAt(sweep, T_reference_base));
