@@ -23,6 +23,13 @@ Axis predictAxis(double acceleration, double most, double elapsed) {
   return {kept, spread * elapsed * std::sqrt(1.0 - kept * kept)};
 }
 
+// A perturbation on the right of a step, as one of its coordinates.
+Eigen::Matrix3d alongStart(const geometry::Pose2& step) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = step.rotation();
+  return turn;
+}
+
 Eigen::Vector3d possible(const CarrierConfig& carrier, const Eigen::Vector3d& twist) {
   const double speed = twist.head<2>().norm();
   Eigen::Vector3d bounded = twist;
@@ -33,25 +40,23 @@ Eigen::Vector3d possible(const CarrierConfig& carrier, const Eigen::Vector3d& tw
 
 }  // namespace
 
-Twist twistOf(const geometry::UncertainPose2& step, double elapsed) {
-  if (elapsed <= 0.0) return {};
-  const Eigen::Vector3d tangent = step.mean.log();
-  // d log / d coordinates: the group's own, with its translation along the axes of the start.
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = step.mean.rotation().transpose();
-  const Eigen::Matrix3d jacobian = geometry::logRightJacobian(tangent) * turn / elapsed;
-  return {tangent / elapsed, jacobian * step.covariance * jacobian.transpose()};
-}
-
-geometry::UncertainPose2 predictStep(const CarrierConfig& carrier, const Twist& twist,
-                                     double elapsed) {
+StepPrediction predictStep(const CarrierConfig& carrier, const Eigen::Vector3d& twist,
+                           double elapsed) {
   const Axis way = predictAxis(carrier.acceleration, carrier.max_speed, elapsed);
   const Axis turn = predictAxis(carrier.turn_acceleration, carrier.max_turn_rate, elapsed);
   const Eigen::Vector3d kept = elapsed * Eigen::Vector3d(way.kept, way.kept, turn.kept);
   const Eigen::Vector3d sigma(way.sigma, way.sigma, turn.sigma);
-  const Eigen::Matrix3d wander = sigma.cwiseAbs2().asDiagonal();
-  return {geometry::Pose2::exp(kept.cwiseProduct(possible(carrier, twist.mean))),
-          wander + kept.asDiagonal() * twist.covariance * kept.asDiagonal()};
+  const Eigen::Vector3d tangent = kept.cwiseProduct(possible(carrier, twist));
+  StepPrediction prediction;
+  prediction.step = geometry::Pose2::exp(tangent);
+  prediction.covariance = sigma.cwiseAbs2().asDiagonal();
+  prediction.by_twist =
+      alongStart(prediction.step) * geometry::expRightJacobian(tangent) * kept.asDiagonal();
+  return prediction;
+}
+
+Eigen::Matrix3d twistJacobian(const geometry::Pose2& step, double elapsed) {
+  return geometry::logRightJacobian(step.log()) * alongStart(step).transpose() / elapsed;
 }
 
 SearchWindow windowOf(const CarrierConfig& carrier, const geometry::UncertainPose2& T_odom_base,

@@ -112,6 +112,8 @@ TEST(DeadReckoner, TheWayAlongAPlainCorridorIsUncertain) {
   EXPECT_LT(std::sqrt(late(1, 1)), 0.03);
   EXPECT_NEAR(updates[40].pose.mean.y(), 0.0, 0.02);
   EXPECT_NEAR(updates[40].pose.mean.theta(), 0.0, 0.02);
+  // Nothing tells standing from going on.
+  EXPECT_LT(std::abs(updates[40].pose.mean.x() - 4.0), 4.0 * std::sqrt(late(0, 0)));
 }
 
 TEST(DeadReckoner, APriorTellsTheWayAlongAPlainCorridor) {
