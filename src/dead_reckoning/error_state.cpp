@@ -1,5 +1,7 @@
 #include "sightline/dead_reckoning/error_state.h"
 
+#include <cmath>
+
 #include <Eigen/LU>
 
 namespace sightline::dead_reckoning {
@@ -65,10 +67,12 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   transition.block<3, 3>(3, 3) += next.by_pose;
   Eigen::Matrix<double, 9, 3> entry;
   entry << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), to_twist;
-  const Eigen::Matrix3d matched =
-      moved.block<3, 3>(0, 3) * againstReference() * moved.block<3, 3>(0, 3).transpose() + of_match;
+  // What the reference has in common with the scan before moves both ends of the step.
+  Joint apart = covariance_;
+  apart.block<3, 9>(3, 0) *= std::sqrt(1.0 - measurement.common);
+  apart.block<9, 3>(0, 3) *= std::sqrt(1.0 - measurement.common);
   const Eigen::Matrix3d step_covariance =
-      moved * covariance_ * moved.transpose() + noise - measurement.common * matched;
+      moved * apart * moved.transpose() + noise - measurement.common * of_match;
   covariance_ =
       transition * covariance_ * transition.transpose() + entry * noise * entry.transpose();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
