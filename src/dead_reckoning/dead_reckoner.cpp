@@ -20,6 +20,8 @@ using geometry::UncertainPose2;
 
 // The prior is never taken for more certain than this: rounding of a log or a message [m, rad].
 constexpr double kLeastSigma = 1e-4;
+// A window is no wider than what the carrier can do in this time, however long was bridged [s].
+constexpr double kLongestSearch = 10.0;
 // A sweep is corrected anew where the motion found moves its last beam by this much [m, rad].
 constexpr double kSweepPosition = 0.003;
 constexpr double kSweepHeading = 0.001;
@@ -101,13 +103,18 @@ std::optional<DeadReckoningUpdate> DeadReckoner::Impl::update(
   DeadReckoningUpdate update;
   update.stamp = scan.stamp;
   if (!stamp_ || elapsed > config_.max_gap) matcher_->clear();
+  const bool had_reference = matcher_->hasReference();
   if (stamp_) {
     const MatchOutcome outcome =
         matcher_->hasReference() ? match(scan, T_base_sensor, step, elapsed) : MatchOutcome();
     takeMatch(outcome, step, elapsed, update);
   }
   stamp_ = scan.stamp;
-  errors_.handOver(matcher_->learn(sweep_, T_odom_base_, update.state));
+  const double share_new = matcher_->learn(sweep_, T_odom_base_, update.state);
+  // Against a reference that begins with it the pose is certain, however long the gap was.
+  const bool begins = !had_reference && matcher_->hasReference();
+  if (begins) bridged_ = 0.0;
+  errors_.handOver(begins ? 1.0 : share_new);
   update.beams = sweep_.points.size();
   update.pose = {T_odom_base_, errors_.pose()};
   update.twist = twist_;
@@ -126,7 +133,8 @@ StepPrediction DeadReckoner::Impl::predict(const std::optional<MotionPrior>& pri
 MatchOutcome DeadReckoner::Impl::match(const scan::Scan& scan, const Pose2& T_base_sensor,
                                        const StepPrediction& step, double elapsed) {
   const UncertainPose2 prior{T_odom_base_ * step.step, errors_.predicted(T_odom_base_, step)};
-  const SearchWindow window = windowOf(config_.carrier, prior, elapsed + bridged_);
+  const SearchWindow window =
+      windowOf(config_.carrier, prior, std::min(elapsed + bridged_, kLongestSearch));
   MatchOutcome outcome = matcher_->match(sweep_, prior, window);
   const double duration = scan.geometry->timeOffsets().back();
   if (duration != 0.0 && scan.sensor_motion.empty() && outcome.state != MatchState::kFailed) {

@@ -175,6 +175,55 @@ TEST(ScanOdometry, AGyroscopeBringsItThroughScansThatSayNothing) {
   EXPECT_GT(turned, 1.0);
 }
 
+TEST(ScanOdometry, GoesOnAfterAGapOfAnyLength) {
+  for (const std::int64_t gap : {10'000'000'000, 100'000'000'000'000}) {
+    Walk walk;
+    ScanOdometry odometry({});
+    int scans = 0;
+    std::optional<Pose2> first;
+    Pose2 truth_first;
+    walk.run(4.0, [&](scan::Scan scan) {
+      const Pose2 truth = walk.truthAt(scan.stamp);
+      if (++scans >= 20) scan.stamp += gap;
+      const auto update = odometry.update(scan, Pose2());
+      ASSERT_TRUE(update);
+      if (scans < 20) return;
+      if (!first) {
+        EXPECT_TRUE(update->isFlagged());
+        first = update->pose.mean;
+        truth_first = truth;
+      }
+      const Pose2 error = geometry::between(geometry::between(truth_first, truth),
+                                            geometry::between(*first, update->pose.mean));
+      EXPECT_LT(error.translation().norm(), 0.05);
+    });
+  }
+}
+
+TEST(ScanOdometry, AnHourOfScansThatSayNothingIsOutlived) {
+  Walk walk;
+  ScanOdometry odometry({});
+  int scans = 0;
+  std::int64_t delay = 0;
+  walk.run(3.0, [&](scan::Scan scan) {
+    if (++scans == 20) {
+      scan::Scan blind = scan;
+      std::fill(blind.kinds.begin(), blind.kinds.end(), scan::ReturnKind::kInvalid);
+      for (; delay < 3'600'000'000'000; delay += 2'500'000'000) {
+        blind.stamp = scan.stamp + delay;
+        const auto update = odometry.update(blind, Pose2());
+        ASSERT_TRUE(update);
+        EXPECT_TRUE(update->isFlagged() && update->pose.mean.isFinite());
+      }
+    }
+    scan.stamp += delay;
+    const auto update = odometry.update(scan, Pose2());
+    ASSERT_TRUE(update);
+    if (scans <= 25) return;
+    EXPECT_GT(update->inliers, 0.5) << "it matches again";
+  });
+}
+
 TEST(ScanOdometry, ForgetsWhereItWas) {
   Walk walk;
   ScanOdometry odometry({});
