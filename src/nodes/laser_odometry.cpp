@@ -144,8 +144,12 @@ bool LaserOdometryNode::findMounting(const Waiting& waiting) {
     mounting_ = bridge::mountingOf(transform.transform);
     is_mounting_known_ = true;
   } catch (const tf2::TransformException& missing) {
-    if (is_mounting_known_ && waiting.age() >= config_.prior_timeout) throw;
-    if (is_mounting_known_) return false;
+    // Known, but not of that time: a scan from before it began, or from long ago.
+    const bool is_known =
+        is_mounting_known_ ||
+        transforms_.canTransform(config_.base_frame, header.frame_id, ros::Time(0));
+    if (is_known && waiting.age() >= config_.prior_timeout) throw;
+    if (is_known) return false;
     if (mounting_) return true;
     if (waiting.age() < config_.mounting_timeout) return false;
     ROS_WARN("the scanner is taken for the base: %s", missing.what());
