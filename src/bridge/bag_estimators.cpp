@@ -8,6 +8,7 @@
 #include <boost/make_shared.hpp>
 
 #include "sightline/bridge/initial_pose.h"
+#include "sightline/bridge/laser_odometry_messages.h"
 #include "sightline/bridge/line_messages.h"
 #include "sightline/bridge/room_messages.h"
 #include "sightline/bridge/time.h"
@@ -107,6 +108,38 @@ std::vector<std::string> BagRooms::summary() const {
       "rooms: {} of {} scans have a pose, {} of them while lost", poses_, scans_, lost_)};
   for (const auto& [reason, count] : without_pose_) {
     lines.push_back(fmt::format("rooms: {} scans left out: {}", count, reason));
+  }
+  return lines;
+}
+
+BagOdometry::BagOdometry(const pipeline::OfflineConfig& config, rosbag::Bag& out,
+                         const std::string& trajectory)
+    : frames_(config.frames),
+      odometry_(config.odometry.value_or(pipeline::ScanOdometryConfig())),
+      out_(out),
+      trajectory_(trajectory) {}
+
+void BagOdometry::process(const LocatedScan& located, const ros::Time& now) {
+  ++scans_;
+  pipeline::OdometryAids aids;
+  aids.T_odom_base = located.T_odom_base;
+  const auto update =
+      odometry_.update(located.scan, located.T_base_sensor.value_or(geometry::Pose2()), aids);
+  if (!update) return;
+  ++poses_;
+  if (update->isFlagged()) ++flagged_;
+  if (located.T_odom_base) ++with_wheels_;
+  trajectory_.add(update->stamp, update->pose.mean);
+  out_.write("/laser_odom", now, toLaserOdometryMessage(*update, frames_.odom, frames_.base));
+}
+
+std::vector<std::string> BagOdometry::summary() const {
+  std::vector<std::string> lines{fmt::format(
+      "odometry: {} of {} scans have a pose, {} of them flagged, {} with the wheels as prior",
+      poses_, scans_, flagged_, with_wheels_)};
+  if (scans_ > poses_) {
+    lines.push_back(
+        fmt::format("odometry: {} scans left out: older than the scan before it", scans_ - poses_));
   }
   return lines;
 }

@@ -7,11 +7,13 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/Twist.h>
 #include <ros/ros.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "nodes/sim_sensor_config.h"
+#include "sightline/bridge/imu_conversion.h"
 #include "sightline/bridge/input_monitor.h"
 #include "sightline/bridge/odometry_conversion.h"
 #include "sightline/bridge/parameters.h"
@@ -50,6 +52,7 @@ class SimSensorNode {
   bridge::UncertainTwist2 odometryTwist() const;
   void publishOdometry();
   void publishGroundTruth();
+  void publishImu();
   void end();
 
   ros::NodeHandle node_;
@@ -66,6 +69,7 @@ class SimSensorNode {
 
   ros::Publisher odometry_publisher_;
   ros::Publisher truth_publisher_;
+  ros::Publisher imu_publisher_;  // of a person
   ros::Subscriber command_subscriber_;
   ros::WallTimer timer_;
   ros::WallTimer diagnostics_timer_;
@@ -93,6 +97,10 @@ SimSensorNode::SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node)
   addScanners(bridge::parametersBelow(private_node));
   odometry_publisher_ = node_.advertise<nav_msgs::Odometry>("odom", 50);
   truth_publisher_ = node_.advertise<nav_msgs::Odometry>("ground_truth", 50);
+  if (config_.walks) {
+    simulation_.walk(config_.gait);
+    imu_publisher_ = node_.advertise<sensor_msgs::Imu>("imu", 200);
+  }
   startDriving();
   timer_ = node_.createWallTimer(ros::WallDuration(1e-9 * Simulation::kStep),
                                  [this](const ros::WallTimerEvent&) { onTimer(); });
@@ -176,6 +184,7 @@ void SimSensorNode::step() {
   if (simulation_.time() == 0) publishState();  // so that the first sweep is covered
   auto sweeps = simulation_.step();
   clock_.publish(simulation_.time());
+  if (config_.walks) publishImu();
   for (auto& sweep : sweeps) publish(sweep);
   const double due = 1e9 * static_cast<double>(odometry_messages_) / config_.odometry_rate;
   if (static_cast<double>(simulation_.time()) >= due) publishState();
@@ -223,7 +232,19 @@ void SimSensorNode::publishGroundTruth() {
   const Eigen::Vector3d twist(robot.velocity().linear, 0.0, robot.velocity().angular);
   truth_publisher_.publish(bridge::toOdometryMessage(
       {clock_.stampOf(simulation_.time()), config_.map_frame, config_.base_frame},
-      {robot.T_map_base(), Eigen::Matrix3d::Zero()}, {twist, Eigen::Matrix3d::Zero()}));
+      {simulation_.T_map_base(simulation_.time()), Eigen::Matrix3d::Zero()},
+      {twist, Eigen::Matrix3d::Zero()}));
+}
+
+// A perfect one, once a step.
+void SimSensorNode::publishImu() {
+  const std::int64_t now = simulation_.time();
+  const auto& [roll, pitch] = simulation_.bodyMotion(now).attitude;
+  const geometry::Pose2 turned = geometry::between(simulation_.T_map_base(now - Simulation::kStep),
+                                                   simulation_.T_map_base(now));
+  imu_publisher_.publish(
+      bridge::toImuMessage(clock_.stampOf(now), config_.base_frame, {roll, pitch},
+                           turned.theta() / (1e-9 * static_cast<double>(Simulation::kStep))));
 }
 
 void SimSensorNode::end() {

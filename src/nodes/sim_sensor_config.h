@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sightline/config/fields.h"
+#include "sightline/simulation/gait.h"
 #include "sightline/simulation/robot.h"
 #include "sightline/simulation/scanner.h"
 
@@ -39,6 +40,8 @@ struct SimSensorConfig {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
   simulation::RobotConfig robot;
+  bool walks = false;
+  simulation::GaitConfig gait;
 
   void visit(config::FieldVisitor& visitor) {
     visitor.text("world", world, "path of the world file; must be set");
@@ -58,6 +61,10 @@ struct SimSensorConfig {
     visitor.text("odom_frame", odom_frame, "frame of the odometry");
     visitor.text("base_frame", base_frame, "frame of the robot");
     visitor.group("robot", robot);
+    visitor.flag("walks", walks,
+                 "a person carries the scanners where the robot would go, nodding and swaying; imu "
+                 "tells how");
+    visitor.group("gait", gait);
   }
 };
 

@@ -41,6 +41,19 @@ RoomsConfig readRooms(const Node& node) {
   return rooms;
 }
 
+// The file of the carrier, which is one of parameters of the node too, and what is set beside it.
+std::optional<ScanOdometryConfig> readOdometry(const Node& document) {
+  if (!document.has("carrier") && !document.has("odometry")) return std::nullopt;
+  ScanOdometryConfig odometry;
+  if (document.has("carrier")) {
+    const Node carrier = Node::readFile(document.at("carrier").path());
+    carrier.allowOnly({"odometry"});
+    readGroup(carrier, "odometry", odometry);
+  }
+  readGroup(document, "odometry", odometry);
+  return odometry;
+}
+
 }  // namespace
 
 void Frames::visit(config::FieldVisitor& visitor) {
@@ -61,7 +74,8 @@ void RoomsConfig::visit(config::FieldVisitor& visitor) {
 
 OfflineConfig OfflineConfig::readFile(const std::string& path) {
   const Node document = Node::readFile(path);
-  document.allowOnly({"scans", "frames", "mountings", "noise", "lines", "rooms"});
+  document.allowOnly(
+      {"scans", "frames", "mountings", "noise", "lines", "rooms", "carrier", "odometry"});
   OfflineConfig config;
   if (document.has("scans")) config.scans = readTopics(document.at("scans"));
   readGroup(document, "frames", config.frames);
@@ -69,6 +83,7 @@ OfflineConfig OfflineConfig::readFile(const std::string& path) {
   readGroup(document, "noise", config.noise);
   readGroup(document, "lines", config.lines);
   if (document.has("rooms")) config.rooms = readRooms(document.at("rooms"));
+  config.odometry = readOdometry(document);
   return config;
 }
 

@@ -9,13 +9,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Eigen::Isometry3d inSpace(const geometry::Pose2& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.linear().topLeftCorner<2, 2>() = pose.rotation();
-  result.translation().head<2>() = pose.translation();
-  return result;
-}
-
 const ScannerProfile& checked(const ScannerProfile& profile) {
   profile.check("");
   return profile;
@@ -43,6 +36,13 @@ Eigen::Isometry3d Mounting::T_base_sensor() const {
          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
 }
 
+Eigen::Isometry3d inSpace(const geometry::Pose2& pose) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear().topLeftCorner<2, 2>() = pose.rotation();
+  result.translation().head<2>() = pose.translation();
+  return result;
+}
+
 Scanner::Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed)
     : profile_(checked(profile)),
       T_base_sensor_(mounting.T_base_sensor()),
@@ -51,6 +51,11 @@ Scanner::Scanner(const ScannerProfile& profile, const Mounting& mounting, std::u
       random_(randomStream(seed, 1)) {}
 
 scan::Scan Scanner::sweep(const world::World& world, std::int64_t stamp, const PoseAt& T_map_base) {
+  return sweepInSpace(world, stamp, [&](std::int64_t time) { return inSpace(T_map_base(time)); });
+}
+
+scan::Scan Scanner::sweepInSpace(const world::World& world, std::int64_t stamp,
+                                 const PoseInSpaceAt& T_map_base) {
   scan::Scan scan;
   scan.geometry = geometry_;
   scan.stamp = stamp;
@@ -64,9 +69,9 @@ scan::Scan Scanner::sweep(const world::World& world, std::int64_t stamp, const P
   return scan;
 }
 
-void Scanner::measureBeam(const world::World& world, const geometry::Pose2& T_map_base,
+void Scanner::measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_base,
                           std::size_t beam, scan::Scan& scan) {
-  const Eigen::Isometry3d T_map_sensor = inSpace(T_map_base) * T_base_sensor_;
+  const Eigen::Isometry3d T_map_sensor = T_map_base * T_base_sensor_;
   const auto hit = lookNoisily(world, T_map_sensor, geometry_->angles()[beam]);
   const double intensity = hit ? intensityOf(*hit, world.materials()[hit->material]) : 0.0;
   double range = hit ? noisyRange(hit->range, intensity) : kInfinity;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "nodes/laser_odometry_config.h"
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
@@ -42,6 +43,10 @@ int main() {
              "Parameters of the node. `config/line_extractor.yaml` holds them with their defaults.",
              describe<nodes::LineExtractorNodeConfig>());
   printTable("room_tracker", "Parameters of the node.", describe<nodes::RoomTrackerNodeConfig>());
+  printTable("laser_odometry",
+             "Parameters of the node. `config/carriers` holds those that depend on who carries the "
+             "scanner.",
+             describe<nodes::LaserOdometryNodeConfig>());
   printTable("sim_sensor", "Parameters of the node.", describe<nodes::SimSensorConfig>());
   printTable("sim_sensor: scanners",
              "Parameters of one scanner, below `~scanners/NAME` of sim_sensor.",

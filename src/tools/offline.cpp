@@ -31,10 +31,12 @@ std::vector<std::string> splitNodes(const std::string& list) {
   std::vector<std::string> nodes;
   std::istringstream stream(list);
   for (std::string node; std::getline(stream, node, ',');) {
-    if (node == "odometry" || node == "targets") {
+    if (node == "targets") {
       throw tools::UsageError("--nodes: " + node + " is not part of this version");
     }
-    if (node != "lines" && node != "rooms") throw tools::UsageError("--nodes: no node " + node);
+    if (node != "lines" && node != "rooms" && node != "odometry") {
+      throw tools::UsageError("--nodes: no node " + node);
+    }
     if (std::count(nodes.begin(), nodes.end(), node) == 0) nodes.push_back(node);
   }
   if (nodes.empty()) throw tools::UsageError("--nodes: none given");
@@ -51,9 +53,15 @@ void openOut(rosbag::Bag& out, const Job& job) {
   out.open(path.string(), rosbag::bagmode::Write);
 }
 
+std::vector<std::string> nodesOf(const pipeline::OfflineConfig& config) {
+  std::vector<std::string> nodes{"lines"};
+  if (config.rooms) nodes.emplace_back("rooms");
+  if (config.odometry) nodes.emplace_back("odometry");
+  return nodes;
+}
+
 std::vector<std::string> nodesOf(const Job& job, const pipeline::OfflineConfig& config) {
-  std::vector<std::string> nodes = job.nodes;
-  if (nodes.empty()) nodes = config.rooms ? splitNodes("lines,rooms") : splitNodes("lines");
+  const std::vector<std::string> nodes = job.nodes.empty() ? nodesOf(config) : job.nodes;
   const bool rooms = std::count(nodes.begin(), nodes.end(), "rooms") > 0;
   if (rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
   if (rooms && job.no_wheels) {
@@ -68,10 +76,13 @@ Estimators makeEstimators(const std::vector<std::string>& nodes,
                           const pipeline::OfflineConfig& config, const Job& job, rosbag::Bag& out) {
   Estimators estimators;
   for (const std::string& node : nodes) {
-    if (node == "lines") estimators.push_back(std::make_unique<bridge::BagLines>(config, out));
-    if (node == "rooms") {
-      estimators.push_back(std::make_unique<bridge::BagRooms>(
-          config, out, (std::filesystem::path(job.out) / "rooms.tum").string()));
+    const std::string trajectory = (std::filesystem::path(job.out) / (node + ".tum")).string();
+    if (node == "lines") {
+      estimators.push_back(std::make_unique<bridge::BagLines>(config, out));
+    } else if (node == "rooms") {
+      estimators.push_back(std::make_unique<bridge::BagRooms>(config, out, trajectory));
+    } else {
+      estimators.push_back(std::make_unique<bridge::BagOdometry>(config, out, trajectory));
     }
   }
   return estimators;
@@ -140,12 +151,13 @@ int main(int argc, char** argv) {
   tools::Program program("offline", "Runs the estimators over a bag, as fast as they go.");
   program.positional("IN.bag", job.in, "the bag to read");
   program.requiredOption("--config", job.config, "FILE.yaml",
-                         "settings: scans, frames, noise, lines, rooms");
+                         "settings: scans, frames, noise, lines, rooms, carrier, odometry");
   program.requiredOption("--out", job.out, "DIR",
                          "folder for out.bag and one trajectory, NODE.tum, for each node with a "
                          "pose");
-  program.option("--nodes", nodes, "lines,rooms",
-                 "what to run; by default lines, and rooms where the settings name some");
+  program.option("--nodes", nodes, "lines,rooms,odometry",
+                 "what to run; by default lines, and rooms and odometry where the settings ask for "
+                 "them");
   program.flag("--no-wheels", job.no_wheels, "leave the odometry of the bag unused");
   return program.run(argc, argv, [&] {
     if (nodes) job.nodes = splitNodes(*nodes);

@@ -21,6 +21,8 @@ class Recorder {
     return messages_.size();
   }
 
+  std::uint32_t publishers() const { return subscriber_.getNumPublishers(); }
+
   std::vector<Message> all() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return messages_;

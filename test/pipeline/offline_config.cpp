@@ -71,5 +71,16 @@ TEST(ShippedOfflineConfigs, AreRead) {
   EXPECT_THAT(config.rooms->map, HasSubstr("config/rooms/fr079.yaml"));
 }
 
+TEST_F(OfflineConfigTest, OdometryIsWantedWhereACarrierOrASettingSaysSo) {
+  EXPECT_FALSE(read("scans: [scan]\n").odometry);
+  folder_.write("person.yaml", "odometry: {leans: true, floor: {height: 1.1}}\n");
+  const auto config = read("carrier: person.yaml\nodometry: {floor: {height: 1.3}}\n");
+  ASSERT_TRUE(config.odometry.has_value());
+  EXPECT_TRUE(config.odometry->leans);
+  EXPECT_EQ(config.odometry->floor.height, 1.3) << "what stands here goes before the carrier's";
+  EXPECT_TRUE(read("odometry: {}\n").odometry.has_value());
+  EXPECT_THAT(fault("odometry: {leans: perhaps}\n"), HasSubstr("odometry"));
+}
+
 }  // namespace
 }  // namespace sightline::pipeline

@@ -44,6 +44,10 @@ class OfflineTest : public testing::Test {
     return topics;
   }
 
+  static geometry::Pose2 robotAt(const logs::TimedPose& timed) {
+    return test::carmenRobotAt(1e-9 * static_cast<double>(timed.stamp) - 100.0);
+  }
+
   test::TemporaryFolder folder_;
 };
 
@@ -94,13 +98,43 @@ TEST_F(OfflineTest, RunsOnlyWhatIsAskedFor) {
   EXPECT_EQ(topicsOfResult().count("/pose"), 0U);
 }
 
+TEST_F(OfflineTest, FollowsTheRobotByItsScansAlone) {
+  const auto result = run("--nodes odometry --no-wheels");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("odometry: 60 of 60 scans have a pose, 0 of them flagged, "
+                                       "0 with the wheels as prior"));
+  const auto trajectory = logs::readTrajectory(folder_.path("out/odometry.tum"));
+  ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kScans));
+  const geometry::Pose2 T_map_odom = robotAt(trajectory.front());
+  for (const logs::TimedPose& timed : trajectory) {
+    const geometry::Pose2 error = geometry::between(robotAt(timed), T_map_odom * timed.pose);
+    EXPECT_LT(error.translation().norm(), 0.03);
+    EXPECT_LT(std::abs(error.theta()), 0.01);
+  }
+  EXPECT_EQ(topicsOfResult().at("/laser_odom"), 60U);
+}
+
+TEST_F(OfflineTest, BeginsWhereTheWheelsAre) {
+  const auto result = run("--nodes odometry");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("60 with the wheels as prior"));
+  EXPECT_EQ(logs::readTrajectory(folder_.path("out/odometry.tum")).size(), 60U);
+}
+
+TEST_F(OfflineTest, RunsOdometryWhereTheSettingsAskForIt) {
+  folder_.write("a.yaml", "odometry: {method: histogram}\n");
+  const auto result = run();
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("lines: "));
+  EXPECT_THAT(result.output, HasSubstr("odometry: 60 of 60"));
+}
+
 TEST_F(OfflineTest, RefusesWhatItCannotDo) {
   const auto refusal = [this](const std::string& options) {
     const auto result = run(options);
     EXPECT_EQ(result.status, 2) << options;
     return result.output;
   };
-  EXPECT_THAT(refusal("--nodes odometry"), HasSubstr("odometry is not part of this version"));
   EXPECT_THAT(refusal("--nodes lines,targets"), HasSubstr("targets is not part of this version"));
   EXPECT_THAT(refusal("--nodes lanes"), HasSubstr("no node lanes"));
   EXPECT_THAT(refusal("--nodes rooms --no-wheels"), HasSubstr("rooms without odometry"));

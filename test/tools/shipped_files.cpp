@@ -10,6 +10,7 @@
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
 #include "sightline/pipeline/offline_config.h"
+#include "sightline/pipeline/scan_odometry.h"
 #include "sightline/simulation/path.h"
 #include "sightline/simulation/scanner_profile.h"
 #include "sightline/world/room_map.h"
@@ -63,6 +64,15 @@ TEST(ShippedFiles, Paths) {
 TEST(ShippedFiles, Offline) {
   expectToLoad("config/offline", pipeline::OfflineConfig::readFile);
 }
+TEST(ShippedFiles, Carriers) {
+  expectToLoad("config/carriers", [](const std::string& file) {
+    const auto document = config::Node::readFile(file);
+    document.allowOnly({"odometry"});
+    pipeline::ScanOdometryConfig config;
+    config::read(document.at("odometry"), config);
+    EXPECT_NO_THROW(pipeline::ScanOdometry{config});
+  });
+}
 TEST(ShippedFiles, Replay) {
   expectToLoad("config/replay", pipeline::OfflineConfig::readFile);
 }
@@ -81,6 +91,7 @@ TEST(ShippedFiles, EveryConfigurationHasARoomAbove) {
                                          "paths",
                                          "offline",
                                          "replay",
+                                         "carriers",
                                          "line_extractor.yaml",
                                          "room_tracker.yaml"};
     EXPECT_NE(std::find(known.begin(), known.end(), folder), known.end())

@@ -10,6 +10,7 @@
 #include "sightline/bridge/bag_scans.h"
 #include "sightline/lines/line_extractor.h"
 #include "sightline/logs/trajectory.h"
+#include "sightline/pipeline/scan_odometry.h"
 #include "sightline/tracking/room_tracker.h"
 
 namespace sightline::bridge {
@@ -66,6 +67,30 @@ class BagRooms : public BagEstimator {
   std::size_t poses_ = 0;
   std::size_t lost_ = 0;
   std::map<std::string, std::size_t> without_pose_;  // by reason
+};
+
+/// Odometry from the scans, with the wheels as prior where the bag has them and they may be used:
+/// /laser_odom, and the trajectory in a file. A scanner that no transform leads to is taken for the
+/// base itself.
+class BagOdometry : public BagEstimator {
+ public:
+  /// The bag has to outlive the estimator. Throws config::Error.
+  BagOdometry(const pipeline::OfflineConfig& config, rosbag::Bag& out,
+              const std::string& trajectory);
+
+  void process(const LocatedScan& located, const ros::Time& now) override;
+  void finish() override { trajectory_.close(); }
+  std::vector<std::string> summary() const override;
+
+ private:
+  pipeline::Frames frames_;
+  pipeline::ScanOdometry odometry_;
+  rosbag::Bag& out_;
+  logs::TrajectoryWriter trajectory_;
+  std::size_t scans_ = 0;
+  std::size_t poses_ = 0;
+  std::size_t flagged_ = 0;
+  std::size_t with_wheels_ = 0;
 };
 
 }  // namespace sightline::bridge

@@ -8,6 +8,7 @@
 #include "sightline/config/fields.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/lines/line_extractor_config.h"
+#include "sightline/pipeline/scan_odometry.h"
 #include "sightline/scan/noise_model.h"
 #include "sightline/tracking/tracker_config.h"
 
@@ -37,15 +38,17 @@ struct RoomsConfig {
 /// ```yaml
 /// scans: [scan]                                # topics
 /// frames: {map: map, odom: odom, base: base_link}
-/// mountings: {laser: [0.2, 0.0, 0.0]}          # x, y, yaw of a scanner's frame on the base [m, m,
-/// rad],
-///                                              # where the recording does not tell
+/// mountings: {laser: [0.2, 0.0, 0.0]}          # x, y, yaw of a scanner's frame on the base,
+///                                              # m, m, rad, where the recording does not tell
 /// noise: {sigma: 0.01}                         # as scan::NoiseModel
 /// lines: {min_length: 0.5}                     # as lines::LineExtractorConfig
 /// rooms:                                       # where the room tracker is wanted
 ///   map: rooms.yaml                            # relative to this file
 ///   initial_pose: [0.0, 0.0, 0.0]              # m, m, rad
 ///   tracker: {neighbours: true}                # as tracking::TrackerConfig
+/// carrier: ../carriers/body_worn.yaml          # where odometry from scans is wanted, by this
+/// odometry: {max_gap: 1.0}                     # or by this, as ScanOdometryConfig; it goes before
+///                                              # what the carrier's file says
 /// ```
 struct OfflineConfig {
   std::vector<std::string> scans{"scan"};
@@ -54,6 +57,7 @@ struct OfflineConfig {
   scan::NoiseModel noise;
   lines::LineExtractorConfig lines;
   std::optional<RoomsConfig> rooms;
+  std::optional<ScanOdometryConfig> odometry;
 
   /// Throws config::Error with file, line and key.
   static OfflineConfig readFile(const std::string& path);

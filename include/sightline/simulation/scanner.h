@@ -30,11 +30,16 @@ struct Mounting {
   Eigen::Isometry3d T_base_sensor() const;
 };
 
+/// A pose of the plane as one in space, upright on the floor.
+Eigen::Isometry3d inSpace(const geometry::Pose2& pose);
+
 /// A scanner that takes its beams one after the other while its carrier moves.
 class Scanner {
  public:
   /// The carrier's pose at a time [ns].
   using PoseAt = std::function<geometry::Pose2(std::int64_t)>;
+  /// That of a carrier which leans and bobs; its origin at the floor while it stands upright.
+  using PoseInSpaceAt = std::function<Eigen::Isometry3d(std::int64_t)>;
 
   /// Throws config::Error if the profile does not fit together.
   Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed);
@@ -45,9 +50,11 @@ class Scanner {
   /// The sweep whose first beam leaves at `stamp` [ns], in the sensor's own frame, with the
   /// variances of the profile's noise. The motion of the sensor is left for the estimators to find.
   scan::Scan sweep(const world::World& world, std::int64_t stamp, const PoseAt& T_map_base);
+  scan::Scan sweepInSpace(const world::World& world, std::int64_t stamp,
+                          const PoseInSpaceAt& T_map_base);
 
  private:
-  void measureBeam(const world::World& world, const geometry::Pose2& T_map_base, std::size_t beam,
+  void measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_base, std::size_t beam,
                    scan::Scan& scan);
   std::optional<world::Hit> look(const world::World& world, const Eigen::Isometry3d& T_map_sensor,
                                  double angle) const;

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
 #include "sightline/motion/pose_history.h"
+#include "sightline/simulation/gait.h"
 #include "sightline/simulation/path.h"
 #include "sightline/simulation/robot.h"
 #include "sightline/simulation/scanner.h"
@@ -32,6 +34,9 @@ class Simulation {
 
   /// Sweeps begin at time 0. Throws config::Error.
   void addScanner(const ScannerProfile& profile, const Mounting& mounting);
+  /// From now on a person carries the scanners: what the robot does is where that person goes, and
+  /// the gait comes on top. Throws config::Error if the configuration is out of range.
+  void walk(const GaitConfig& gait);
   /// From now on the path drives, and commands are not heard.
   void follow(const Path& path);
   /// What the robot shall do until the next command, or until the time-out.
@@ -42,6 +47,11 @@ class Simulation {
 
   std::int64_t time() const { return time_; }
   const Robot& robot() const { return robot_; }
+  /// Where the scanners' carrier is in the plane, gait and all; [0, time()] but no more than the
+  /// last ten seconds.
+  geometry::Pose2 T_map_base(std::int64_t time) const;
+  /// How the trunk of a person moves at such a time; nothing moves on a robot.
+  BodyMotion bodyMotion(std::int64_t time) const;
 
  private:
   struct Mounted {
@@ -50,6 +60,8 @@ class Simulation {
     std::int64_t nextStamp() const;
   };
   Velocity wanted();
+  void walkOn();
+  scan::Scan sweep(Mounted& mounted) const;
 
   world::World world_;
   RobotConfig config_;
@@ -61,7 +73,10 @@ class Simulation {
   Velocity command_;
   std::optional<std::int64_t> commanded_at_;
   std::int64_t time_ = 0;
-  motion::PoseHistory T_map_base_;
+  motion::PoseHistory way_;  // T_map_base without the gait
+  GaitConfig gait_config_;
+  std::optional<Gait> gait_;
+  std::deque<BodyMotion> body_motions_;  // one a step; the last one is that of now
 };
 
 }  // namespace sightline::simulation

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vector>
+
+#include "sightline/config/fields.h"
+
+namespace sightline::dead_reckoning {
+
+enum class Method {
+  kSubmap,     ///< point-to-line matching against several keyframes, correlation where it is unsure
+  kPoseSpace,  ///< correlation in pose space (saarinen alg. 4)
+  kHistogram,  ///< angle histogram, then correlation of the translation (saarinen algs 5-7)
+};
+
+/// How the carrier of the scanner can move. Defaults are those of an indoor robot on wheels.
+struct CarrierConfig {
+  double max_speed = 1.2;          ///< [m/s], in any direction
+  double max_turn_rate = 1.5;      ///< [rad/s]
+  double acceleration = 0.4;       ///< standard deviation [m/s²]
+  double turn_acceleration = 1.0;  ///< standard deviation [rad/s²]
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// The reference of the default method.
+struct SubmapConfig {
+  int keyframes = 20;           ///< at most
+  double spacing = 0.4;         ///< of keyframes, way between them [m]
+  double turn_spacing = 0.35;   ///< of keyframes, turn between them [rad]
+  double surface_sigma = 0.01;  ///< roughness of surfaces and errors of the reference [m]
+  double max_cost = 0.25;  ///< share of a scan left unexplained, above which a match has failed
+  double max_contradictions = 0.2;  ///< share of a scan that contradicts, above which it has failed
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+struct PoseSpaceConfig {
+  double step = 0.06;             ///< finest, of position [m]
+  double angle_step = 0.0104720;  ///< of heading, 0.6° [rad]
+  double threshold = 0.06;        ///< th of eq. 4.5 [m]
+  double hold_share = 0.55;       ///< 200 of 361 beams
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+struct HistogramConfig {
+  double bin = 0.0087266;                      ///< of direction, 0.5° [rad]
+  std::vector<double> steps{5.0, 10.0, 15.0};  ///< N of alg. 6 as a turn of the beam [deg]
+  int candidates = 4;                          ///< headings tried
+  double resolution = 0.02;                    ///< of the translation [m]
+  double max_distance = 0.5;                   ///< D of eq. 4.8 [m]
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+struct DeadReckonerConfig {
+  Method method = Method::kSubmap;
+  CarrierConfig carrier;
+  double max_gap = 3.0;  ///< [s] without a scan, after which the reference starts anew
+  SubmapConfig submap;
+  PoseSpaceConfig pose_space;
+  HistogramConfig histogram;
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+}  // namespace sightline::dead_reckoning

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sightline/dead_reckoning/motion_model.h"
+#include "sightline/geometry/pose2.h"
+
+namespace sightline::dead_reckoning {
+
+/// What a match says of a pose.
+struct PoseMeasurement {
+  /// Of the coordinates (x, y, θ); may be singular, zero where there was no match.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  /// Covariance of what is uncertain besides.
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  /// Share of the variance that is the same for the pose before, [0, 1].
+  double common = 0.0;
+};
+
+/// The errors of three things and how they hang together: of the pose in odom, of the pose against
+/// the reference, and of the twist that made the last step. Without a reference in some direction
+/// the pose goes on with the twist's error: it is not a random walk, and grows faster.
+///
+/// Errors are of the coordinates (x, y, θ), along the axes of odom; that of the twist is in the
+/// base.
+class ErrorState {
+ public:
+  /// Certain of pose and twist.
+  void reset() { covariance_.setZero(); }
+
+  /// Against the reference, after a step from T_odom_base.
+  Eigen::Matrix3d predicted(const geometry::Pose2& T_odom_base, const StepPrediction& step) const;
+
+  /// The step and the match at its end. With the gain K of the Kalman filter, the match's error v,
+  /// and what a prediction p leaves open, w, the error e of the pose becomes (1 − K)(p + w) − K v.
+  /// Returns the covariance of the step's coordinates in the base before it.
+  Eigen::Matrix3d advance(const geometry::Pose2& T_odom_base, const StepPrediction& prediction,
+                          const geometry::Pose2& step, double elapsed,
+                          const PoseMeasurement& measurement);
+
+  /// New surfaces are as far off as the pose they were seen from: this share of the reference's
+  /// view takes over the error of the pose, which cannot be matched away any more.
+  void handOver(double share);
+
+  Eigen::Matrix3d pose() const { return covariance_.block<3, 3>(0, 0); }
+  Eigen::Matrix3d againstReference() const { return covariance_.block<3, 3>(3, 3); }
+  Eigen::Matrix3d twist() const { return covariance_.block<3, 3>(6, 6); }
+
+ private:
+  using Joint = Eigen::Matrix<double, 9, 9>;
+  Joint covariance_ = Joint::Zero();
+};
+
+}  // namespace sightline::dead_reckoning

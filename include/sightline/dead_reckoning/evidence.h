@@ -1,0 +1,39 @@
+#pragma once
+
+#include "sightline/dead_reckoning/line_matcher.h"
+#include "sightline/dead_reckoning/range_profile.h"
+#include "sightline/dead_reckoning/submap.h"
+#include "sightline/dead_reckoning/surface_points.h"
+
+namespace sightline::dead_reckoning {
+
+/// What speaks for and against a pose, as shares of the scan's points, [0, 1].
+struct Evidence {
+  double inliers = 0.0;         ///< lie on their counterpart in the reference
+  double contradictions = 0.0;  ///< lie where the reference saw free space, or look through it
+  double cost = 1.0;            ///< 0: all explained; 1: nothing is
+};
+
+/// Weighs a match. A point without a counterpart is no witness against it where the reference did
+/// not see; where it saw free space it is one, and so is a point of the newest keyframe that the
+/// scan looks through.
+///
+/// @param profile  of the same sweep
+Evidence weigh(const LineMatch& match, const Sweep& sweep, const RangeProfile& profile,
+               const Submap& submap);
+
+/// How the residuals of a match are spread.
+struct ResidualSpread {
+  double variance = 1.0;     ///< in units of what was expected
+  double correlation = 0.0;  ///< of neighbours, [0, 1): the reference's errors are theirs together
+
+  /// By how much the covariance of the match is larger than its information says: n neighbours
+  /// count as n (1 − r)/(1 + r) at a correlation r.
+  double factor() const { return variance * (1.0 + correlation) / (1.0 - correlation); }
+  /// The share of that which is due to the reference.
+  double common() const { return 2.0 * correlation / (1.0 + correlation); }
+};
+
+ResidualSpread spreadOf(const LineMatch& match);
+
+}  // namespace sightline::dead_reckoning

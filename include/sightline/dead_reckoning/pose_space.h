@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sightline/dead_reckoning/correlative_search.h"
+#include "sightline/dead_reckoning/dead_reckoner_config.h"
+#include "sightline/dead_reckoning/matcher.h"
+#include "sightline/dead_reckoning/surface_points.h"
+#include "sightline/fitting/rigid_alignment.h"
+#include "sightline/geometry/pose2.h"
+
+namespace sightline::dead_reckoning {
+
+/// Points sorted by x, so that a neighbour is sought among those whose x is near.
+class SortedPoints {
+ public:
+  SortedPoints() = default;
+  explicit SortedPoints(const std::vector<SurfacePoint>& points);
+
+  /// The nearest neighbour (saarinen eq. 4.6), null where it is further than `reach` [m].
+  const Eigen::Vector2d* nearest(const Eigen::Vector2d& point, double reach) const;
+  /// Whether there is any point within reach: eq. 4.5 needs no more.
+  bool hasNear(const Eigen::Vector2d& point, double reach) const;
+
+ private:
+  std::vector<Eigen::Vector2d> points_;
+};
+
+/// A pose of a scan in the frame of the reference, and how many of its points match there.
+struct Correlation {
+  geometry::Pose2 T_reference_base;
+  std::size_t count = 0;
+};
+
+/// Correlation in pose space (saarinen alg. 4): every pose of an even distribution is tried; first
+/// coarse in position, then finer about the best. Headings keep their step, as a coarse one moves
+/// distant points too far.
+Correlation correlatePoses(const std::vector<SurfacePoint>& points, const SortedPoints& reference,
+                           const SearchWindow& window, const PoseSpaceConfig& config);
+
+/// Saarinen section 4.3.4.1: the reference scan is held while enough points match it, and the best
+/// pose is corrected by the least squares of the matching pairs (algorithm 3).
+class PoseSpaceMatcher : public Matcher {
+ public:
+  explicit PoseSpaceMatcher(const PoseSpaceConfig& config) : config_(config) {}
+
+  std::unique_ptr<Matcher> clone() const override {
+    return std::make_unique<PoseSpaceMatcher>(*this);
+  }
+  bool hasReference() const override { return has_reference_; }
+  MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
+                     const SearchWindow& window) override;
+  double learn(const Sweep& sweep, const geometry::Pose2& T_odom_base, MatchState state) override;
+  void clear() override { has_reference_ = false; }
+
+ private:
+  std::vector<fitting::PointPair> pairsAt(const Sweep& sweep,
+                                          const geometry::Pose2& T_reference_base) const;
+
+  PoseSpaceConfig config_;
+  bool has_reference_ = false;
+  bool hold_ = false;
+  geometry::Pose2 T_odom_reference_;
+  SortedPoints reference_;
+};
+
+/// Information on the coordinates of a pose that the points of a sweep give, each across its
+/// surface, with `sigma` [m] of error each.
+Eigen::Matrix3d surfaceInformation(const Sweep& sweep, const geometry::Pose2& T_odom_base,
+                                   double sigma);
+
+}  // namespace sightline::dead_reckoning

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sightline/dead_reckoning/range_profile.h"
+#include "sightline/dead_reckoning/surface_points.h"
+#include "sightline/geometry/pose2.h"
+
+namespace sightline::dead_reckoning {
+
+/// A small straight piece of a surface, in the frame odom.
+struct Surfel {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m]
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();    ///< unit, to the side it was seen from
+  double normal_variance = 0.0;                        ///< of its direction [rad²]
+  double reach = 0.0;                                  ///< half length [m]
+};
+
+/// A scan of the reference.
+struct Keyframe {
+  geometry::Pose2 T_odom_base;
+  Eigen::Matrix2d R_base_odom;
+  std::vector<SurfacePoint> points;  // in its base
+  RangeProfile profile;              // in its base
+  std::vector<Surfel> surfels;
+};
+
+/// The reference of the matching: the surfaces seen from a number of keyframes, found by place.
+class Submap {
+ public:
+  void clear();
+  bool empty() const { return keyframes_.empty(); }
+  /// Adds a scan at its pose; beyond `most` the oldest are dropped. Returns the share of its
+  /// surfels that were new.
+  double add(const geometry::Pose2& T_odom_base, const Sweep& sweep, std::size_t most);
+
+  /// The surfel nearest to a point [m, odom] among those that face as `normal` does (any, where
+  /// that is zero), within `reach` [m] of it; null where there is none.
+  const Surfel* nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
+                        double reach) const;
+
+  /// Oldest first.
+  const std::deque<Keyframe>& keyframes() const { return keyframes_; }
+  /// What a place [m, odom] is to the newest keyframe that knows.
+  Sight sightOf(const Eigen::Vector2d& point) const;
+  const std::vector<Surfel>& surfels() const { return surfels_; }
+  /// Another number after each change.
+  std::uint64_t version() const { return version_; }
+
+ private:
+  struct Nearest {
+    Eigen::Vector2d point;
+    Eigen::Vector2d normal;
+    double facing;  // least cosine between the normals
+    double square;  // of the distance, so far
+    const Surfel* surfel;
+  };
+  void rebuild();
+  void look(std::size_t cell, Nearest& nearest) const;
+  bool insert(const Surfel& surfel);
+
+  std::deque<Keyframe> keyframes_;
+  std::vector<Surfel> surfels_;
+  std::vector<std::int32_t> next_;   // in the same cell, by surfel; −1 ends
+  std::vector<std::int32_t> first_;  // by cell
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace sightline::dead_reckoning

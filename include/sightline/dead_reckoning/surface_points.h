@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sightline/geometry/pose2.h"
+#include "sightline/scan/scan.h"
+
+namespace sightline::dead_reckoning {
+
+/// Where a beam ended, and the surface there as its neighbours show it.
+struct SurfacePoint {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m], in the base at the scan's stamp
+  /// Unit normal towards the sensor; zero where the neighbours show no straight surface.
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  Eigen::Vector2d smoothed = Eigen::Vector2d::Zero();  ///< position, moved onto that surface
+  double normal_variance = 0.0;                        ///< of the normal's direction [rad²]
+  double reach = 0.0;     ///< how far the surface goes on to either side before the next beam [m]
+  double variance = 0.0;  ///< of the position across the surface [m²]
+
+  bool hasNormal() const { return normal != Eigen::Vector2d::Zero(); }
+};
+
+/// What one scan shows of the surfaces around.
+struct Sweep {
+  std::vector<SurfacePoint> points;                  ///< of the valid beams, in their order
+  Eigen::Vector2d sensor = Eigen::Vector2d::Zero();  ///< in the base, at the stamp [m]
+  double beam_angle = 0.0;                           ///< from one beam to the next [rad]
+};
+
+/// Reads the valid beams of a scan. Each point gets a line through its neighbours on the same
+/// surface: those on both sides, or on the better one, so that corners stay sharp.
+///
+/// @param twist  of the base [m/s, m/s, rad/s]: corrects the sweep where the beams have time
+///               offsets and the scan says no motion of its own
+/// Throws scan::InvalidScan where the scan's vectors do not have one entry a beam.
+Sweep readSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
+                const Eigen::Vector3d& twist);
+
+}  // namespace sightline::dead_reckoning

@@ -1,0 +1,107 @@
+#include "sightline/dead_reckoning/translation_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sightline::dead_reckoning {
+
+namespace {
+
+constexpr int kSide = static_cast<int>(2.0 * DistanceField::kReach / DistanceField::kCell);
+constexpr int kCells = 4;  // of the searcher, to each side
+
+int cellIndex(double metres) {
+  return static_cast<int>(std::floor((metres + DistanceField::kReach) / DistanceField::kCell));
+}
+
+bool isInside(int x, int y) {
+  return x >= 0 && y >= 0 && x < kSide && y < kSide;
+}
+
+std::size_t flat(int x, int y) {
+  return static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+}
+
+double cellCentre(int index) {
+  return (index + 0.5) * DistanceField::kCell - DistanceField::kReach;
+}
+
+// The best of `cells` x `cells` positions that fill a square evenly.
+Minimum searchSquare(const CellCost& cost, const Eigen::Vector2d& centre, double half, int cells) {
+  const double cell = 2.0 * half / cells;
+  Minimum best;
+  best.cost = std::numeric_limits<double>::infinity();
+  for (int y = 0; y < cells; ++y) {
+    for (int x = 0; x < cells; ++x) {
+      const Eigen::Vector2d position =
+          centre + Eigen::Vector2d((x + 0.5) * cell - half, (y + 0.5) * cell - half);
+      const double here = cost(position, cell);
+      ++best.evaluations;
+      if (here >= best.cost) continue;
+      best.position = position;
+      best.cost = here;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void DistanceField::draw(const std::vector<SurfacePoint>& points, double max_distance) {
+  max_distance_ = max_distance;
+  distances_.assign(static_cast<std::size_t>(kSide) * kSide, static_cast<float>(max_distance));
+  for (const SurfacePoint& point : points) {
+    if (point.position.cwiseAbs().maxCoeff() < kReach) paint(point.position);
+  }
+}
+
+void DistanceField::paint(const Eigen::Vector2d& point) {
+  const int half = static_cast<int>(std::ceil(max_distance_ / kCell));
+  const int x0 = std::max(0, cellIndex(point.x()) - half);
+  const int y0 = std::max(0, cellIndex(point.y()) - half);
+  const int x1 = std::min(kSide - 1, cellIndex(point.x()) + half);
+  const int y1 = std::min(kSide - 1, cellIndex(point.y()) + half);
+  for (int y = y0; y <= y1; ++y) {
+    const double dy = cellCentre(y) - point.y();
+    for (int x = x0; x <= x1; ++x) {
+      const double dx = cellCentre(x) - point.x();
+      float& distance = distances_[flat(x, y)];
+      distance = std::min(distance, static_cast<float>(std::sqrt(dx * dx + dy * dy)));
+    }
+  }
+}
+
+double DistanceField::cost(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& shift,
+                           double truncation, double slack) const {
+  double sum = 0.0;
+  for (const Eigen::Vector2d& point : points) {
+    const int x = cellIndex(point.x() + shift.x());
+    const int y = cellIndex(point.y() + shift.y());
+    const double distance =
+        isInside(x, y) ? static_cast<double>(distances_[flat(x, y)]) : max_distance_;
+    sum += std::clamp(distance - slack, 0.0, truncation);
+  }
+  return sum / (truncation * static_cast<double>(std::max<std::size_t>(1, points.size())));
+}
+
+Minimum searchIteratively(const CellCost& cost, const Eigen::Vector2d& centre, double half,
+                          double resolution) {
+  Minimum best;
+  best.position = centre;
+  std::size_t evaluations = 0;
+  // The last cells are no larger than the resolution; rounding may leave them a trifle more.
+  for (double width = half; 2.0 * width / kCells >= 0.99 * resolution; width *= 0.5) {
+    best = searchSquare(cost, best.position, width, kCells);
+    evaluations += best.evaluations;
+  }
+  best.evaluations = evaluations;
+  return best;
+}
+
+Minimum searchUniformly(const CellCost& cost, const Eigen::Vector2d& centre, double half,
+                        double resolution) {
+  return searchSquare(cost, centre, half, static_cast<int>(std::lround(2.0 * half / resolution)));
+}
+
+}  // namespace sightline::dead_reckoning

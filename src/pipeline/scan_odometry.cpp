@@ -1,0 +1,175 @@
+#include "sightline/pipeline/scan_odometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sightline::pipeline {
+
+using dead_reckoning::FloorConfig;
+using dead_reckoning::MotionPrior;
+using geometry::Pose2;
+
+motion::OdometryNoise WheelsConfig::unmeasured() {
+  motion::OdometryNoise noise;
+  noise.scale_mean = 1.0;
+  noise.scale_sigma = 0.03;
+  noise.distance_sigma = 0.03;
+  noise.lateral_sigma = 0.02;
+  noise.heading_bias_per_metre = 0.0;
+  noise.heading_sigma_per_metre = 0.05;
+  noise.steering_bias = 0.0;
+  noise.steering_sigma = 0.1;
+  return noise;
+}
+
+void WheelsConfig::visit(config::FieldVisitor& visitor) {
+  visitor.group("noise", noise);
+  visitor.number("position_sigma", position_sigma,
+                 {"m", config::kPositive, "error of a step whatever its length"});
+  visitor.number("heading_sigma", heading_sigma,
+                 {"rad", config::kPositive, "error of a step's turn whatever its size"});
+}
+
+void ScanOdometryConfig::visit(config::FieldVisitor& visitor) {
+  matching.visit(visitor);
+  visitor.flag("leans", leans,
+               "the scanner does not keep level, as on a person: beams that end on floor or "
+               "ceiling are found and left out");
+  visitor.group("floor", floor);
+  visitor.group("wheels", wheels);
+  visitor.number("turn_rate_sigma", turn_rate_sigma,
+                 {"rad/s", config::kPositive, "standard deviation of a gyroscope"});
+}
+
+MotionPrior wheelPrior(const WheelsConfig& config, const Pose2& T_before_now) {
+  const Pose2 step = motion::expectedStep(config.noise, T_before_now, config.noise.scale_mean);
+  MotionPrior prior{step, motion::stepCovariance(config.noise, step)};
+  const double scale = config.noise.scale_sigma / config.noise.scale_mean;
+  prior.covariance.topLeftCorner<2, 2>() +=
+      scale * scale * step.translation() * step.translation().transpose();
+  const Eigen::Vector3d sigmas(config.position_sigma, config.position_sigma, config.heading_sigma);
+  prior.covariance.diagonal() += sigmas.cwiseAbs2();
+  return prior;
+}
+
+namespace {
+
+double meanRange(const scan::Scan& scan) {
+  double sum = 0.0;
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    if (!scan.isValid(i)) continue;
+    sum += scan.ranges[i];
+    ++valid;
+  }
+  return valid > 0 ? sum / static_cast<double>(valid) : 0.0;
+}
+
+// A scanner that nods by α sees what is ahead farther by the factor 1 / cos α. No scan shows that,
+// and it does not add up: the pose errs by it, and a step at both its ends.
+void addUnknownTilt(const FloorConfig& config, const scan::Scan& scan, const Pose2& T_base_sensor,
+                    double elapsed, dead_reckoning::DeadReckoningUpdate& update) {
+  constexpr double kUsualShare = 0.4;  // of the largest tilt
+  const double tilt = kUsualShare * config.max_tilt;
+  const double sigma = 0.5 * tilt * tilt * meanRange(scan);
+  const auto along = [&](double heading) {
+    const Eigen::Vector3d ahead(std::cos(heading), std::sin(heading), 0.0);
+    return Eigen::Matrix3d(sigma * sigma * ahead * ahead.transpose());
+  };
+  const double heading_base = T_base_sensor.theta();
+  update.pose.covariance += along(update.pose.mean.theta() + heading_base);
+  if (elapsed <= 0.0) return;
+  update.step.covariance += 2.0 * along(heading_base);
+  update.twist_covariance += 2.0 / (elapsed * elapsed) * along(heading_base);
+}
+
+}  // namespace
+
+ScanOdometry::ScanOdometry(const ScanOdometryConfig& config)
+    : config_(config), reckoner_(config.matching), finder_(config.floor) {
+  config::validate(config);
+}
+
+void ScanOdometry::reset() {
+  reckoner_.reset();
+  finder_.forget();
+  before_.reset();
+  on_floor_.clear();
+  is_new_ = true;
+}
+
+void ScanOdometry::restartClock() {
+  reckoner_.restartClock();
+  before_.reset();
+}
+
+// The base goes on as before but for the turn.
+MotionPrior ScanOdometry::asBefore(double elapsed, double turn) const {
+  const Eigen::Vector3d& twist = before_->twist;
+  MotionPrior prior{Pose2::exp({elapsed * twist.x(), elapsed * twist.y(), turn}),
+                    elapsed * elapsed * before_->twist_covariance};
+  const double position = config_.matching.carrier.acceleration * elapsed * elapsed;
+  prior.covariance.diagonal().head<2>().array() += position * position;
+  return prior;
+}
+
+ScanOdometry::Prior ScanOdometry::priorOf(const scan::Scan& scan, const OdometryAids& aids) const {
+  if (!before_) return std::nullopt;
+  const double elapsed = 1e-9 * static_cast<double>(scan.stamp - before_->stamp);
+  Prior prior;
+  if (aids.T_odom_base && before_->T_odom_base) {
+    prior = wheelPrior(config_.wheels, geometry::between(*before_->T_odom_base, *aids.T_odom_base));
+  }
+  if (!aids.turn) return prior;
+  // Of the turn the gyroscope knows better.
+  if (!prior) prior = asBefore(elapsed, *aids.turn);
+  prior->T_before_now = {prior->T_before_now.translation(), *aids.turn};
+  const double sigma = config_.turn_rate_sigma * elapsed;
+  prior->covariance.row(2).setZero();
+  prior->covariance.col(2).setZero();
+  prior->covariance(2, 2) = sigma * sigma;
+  return prior;
+}
+
+std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(const scan::Scan& scan,
+                                                                        const Pose2& T_base_sensor,
+                                                                        const OdometryAids& aids) {
+  if (is_new_) reckoner_.reset(aids.T_odom_base.value_or(Pose2()));
+  const auto update = match(scan, T_base_sensor, aids, priorOf(scan, aids));
+  if (!update) return update;
+  is_new_ = false;
+  before_ = Before{scan.stamp, aids.T_odom_base, update->twist, update->twist_covariance};
+  return update;
+}
+
+std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::match(const scan::Scan& scan,
+                                                                       const Pose2& T_base_sensor,
+                                                                       const OdometryAids& aids,
+                                                                       const Prior& prior) {
+  if (!config_.leans) return reckoner_.update(scan, T_base_sensor, prior);
+  if (!aids.attitude) return matchLeaning(scan, T_base_sensor, prior);
+  on_floor_ = dead_reckoning::beamsOnFloor(config_.floor, scan, *aids.attitude);
+  const auto level = dead_reckoning::levelled(scan, *aids.attitude);
+  return reckoner_.update(dead_reckoning::without(level, on_floor_), T_base_sensor, prior);
+}
+
+// Floor is told from walls by looking back, for which the pose has to be known: the scan is matched
+// as it is first, and once more where it turns out to hold floor.
+std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
+    const scan::Scan& scan, const Pose2& T_base_sensor, const Prior& prior) {
+  dead_reckoning::DeadReckoner attempt = reckoner_;
+  auto update = attempt.update(scan, T_base_sensor, prior);
+  if (!update) return update;
+  on_floor_ = finder_.find(scan, update->pose.mean * T_base_sensor);
+  if (std::count(on_floor_.begin(), on_floor_.end(), true) == 0) {
+    reckoner_ = std::move(attempt);
+  } else {
+    update = reckoner_.update(dead_reckoning::without(scan, on_floor_), T_base_sensor, prior);
+  }
+  finder_.remember(scan, update->pose.mean * T_base_sensor);
+  const double elapsed = before_ ? 1e-9 * static_cast<double>(scan.stamp - before_->stamp) : 0.0;
+  addUnknownTilt(config_.floor, scan, T_base_sensor, elapsed, *update);
+  return update;
+}
+
+}  // namespace sightline::pipeline
