@@ -13,8 +13,8 @@ using geometry::Pose2;
 
 constexpr double kReach = 24.0;     // of the rasters from their centre [m]
 constexpr double kFarthest = 16.0;  // of the points that are counted [m]
-constexpr double kMargin = 4.0;     // they are drawn anew when the centre has moved so far [m]
-constexpr double kSpacing = 0.12;   // of the points that are counted [m]
+constexpr double kRedrawAt = 4.0;   // they are drawn anew when the centre has moved so far [m]
+constexpr double kThinning = 0.12;  // of the points that are counted [m]
 constexpr int kFull = 255;
 // Steps of the search: those in position are whole cells.
 constexpr double kCoarseHeading = 0.04;  // [rad]
@@ -25,8 +25,8 @@ constexpr std::size_t kShareKept = 10;
 constexpr std::size_t kLeastKept = 40;
 constexpr std::size_t kMostKept = 400;
 // Poses nearer to each other than this are one hypothesis.
-constexpr double kDistinctPosition = 0.35;  // [m]
-constexpr double kDistinctHeading = 0.1;    // [rad]
+constexpr double kApartPosition = 0.35;  // [m]
+constexpr double kApartHeading = 0.1;    // [rad]
 // Poses that score less than this share of the best are none.
 constexpr double kWorthwhile = 0.6;
 
@@ -35,15 +35,15 @@ std::vector<Eigen::Vector2d> thinOut(const std::vector<SurfacePoint>& points) {
   std::vector<Eigen::Vector2d> thinned;
   for (const SurfacePoint& point : points) {
     if (point.position.norm() > kFarthest) continue;
-    if (!thinned.empty() && (point.position - thinned.back()).norm() < kSpacing) continue;
+    if (!thinned.empty() && (point.position - thinned.back()).norm() < kThinning) continue;
     thinned.push_back(point.position);
   }
   return thinned;
 }
 
-bool isNeighbour(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm() < kDistinctPosition &&
-         std::abs(geometry::wrapAngle(a.theta() - b.theta())) < kDistinctHeading;
+bool isTheSamePeak(const Pose2& a, const Pose2& b) {
+  return (a.translation() - b.translation()).norm() < kApartPosition &&
+         std::abs(geometry::wrapAngle(a.theta() - b.theta())) < kApartHeading;
 }
 
 // A pose of the search.
@@ -69,7 +69,7 @@ std::vector<SearchCandidate> bestApart(std::vector<Step>& all, std::size_t point
     if (best.size() == most) break;
     if (!best.empty() && candidate.score < kWorthwhile * best.front().score) break;
     const bool known = std::any_of(best.begin(), best.end(), [&](const SearchCandidate& other) {
-      return isNeighbour(candidate.T_odom_base, other.T_odom_base);
+      return isTheSamePeak(candidate.T_odom_base, other.T_odom_base);
     });
     if (!known) best.push_back(candidate);
   }
@@ -189,7 +189,7 @@ long Raster::sum(const std::vector<std::int32_t>& cells, int dx, int dy) const {
 }
 
 void CorrelativeSearch::draw(const Submap& submap, const Eigen::Vector2d& centre_odom) {
-  if (drawn_ == submap.version() && (centre_odom - centre_).norm() < kMargin) return;
+  if (drawn_ == submap.version() && (centre_odom - centre_).norm() < kRedrawAt) return;
   drawn_ = submap.version();
   centre_ = centre_odom;
   coarse_.draw(submap.surfels(), centre_odom);

@@ -8,7 +8,7 @@ namespace sightline::dead_reckoning {
 
 namespace {
 
-constexpr int kSide = static_cast<int>(2.0 * DistanceField::kReach / DistanceField::kCell);
+constexpr int kFieldSide = static_cast<int>(2.0 * DistanceField::kReach / DistanceField::kCell);
 constexpr int kCells = 4;  // of the searcher, to each side
 
 int cellIndex(double metres) {
@@ -16,11 +16,11 @@ int cellIndex(double metres) {
 }
 
 bool isInside(int x, int y) {
-  return x >= 0 && y >= 0 && x < kSide && y < kSide;
+  return x >= 0 && y >= 0 && x < kFieldSide && y < kFieldSide;
 }
 
 std::size_t flat(int x, int y) {
-  return static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+  return static_cast<std::size_t>(y) * kFieldSide + static_cast<std::size_t>(x);
 }
 
 double cellCentre(int index) {
@@ -50,7 +50,8 @@ Minimum searchSquare(const CellCost& cost, const Eigen::Vector2d& centre, double
 
 void DistanceField::draw(const std::vector<SurfacePoint>& points, double max_distance) {
   max_distance_ = max_distance;
-  distances_.assign(static_cast<std::size_t>(kSide) * kSide, static_cast<float>(max_distance));
+  distances_.assign(static_cast<std::size_t>(kFieldSide) * kFieldSide,
+                    static_cast<float>(max_distance));
   for (const SurfacePoint& point : points) {
     if (point.position.cwiseAbs().maxCoeff() < kReach) paint(point.position);
   }
@@ -60,8 +61,8 @@ void DistanceField::paint(const Eigen::Vector2d& point) {
   const int half = static_cast<int>(std::ceil(max_distance_ / kCell));
   const int x0 = std::max(0, cellIndex(point.x()) - half);
   const int y0 = std::max(0, cellIndex(point.y()) - half);
-  const int x1 = std::min(kSide - 1, cellIndex(point.x()) + half);
-  const int y1 = std::min(kSide - 1, cellIndex(point.y()) + half);
+  const int x1 = std::min(kFieldSide - 1, cellIndex(point.x()) + half);
+  const int y1 = std::min(kFieldSide - 1, cellIndex(point.y()) + half);
   for (int y = y0; y <= y1; ++y) {
     const double dy = cellCentre(y) - point.y();
     for (int x = x0; x <= x1; ++x) {

@@ -18,6 +18,7 @@
 #include <ros/callback_queue.h>
 #include <ros/master.h>
 #include <ros/ros.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,15 +28,15 @@ namespace sightline::bench {
 /// A process of our own, ended with the object.
 class Process {
  public:
-  explicit Process(const std::vector<std::string>& words) {
+  explicit Process(std::vector<std::string> words) {
     std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     std::fflush(stdout);
     pid_ = fork();
     if (pid_ != 0) return;
-    // What it prints is no figure.
-    if (!std::freopen("/dev/null", "w", stdout)) _exit(126);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output is for figures
     execvp(arguments[0], arguments.data());
     _exit(127);
   }

@@ -24,6 +24,6 @@ int main() {
   }
   bench::measureConsistency();
   bench::measureBodyWorn();
-  bench::measureNode();
+  bench::measureOdometryNode();
   return 0;
 }

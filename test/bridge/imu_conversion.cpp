@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Attitude;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 const Eigen::Quaterniond kStraight = Eigen::Quaterniond::Identity();
 
 sensor_msgs::Imu leaning() {
@@ -78,10 +78,10 @@ TEST(Imu, NonsenseIsRefused) {
   message.header.stamp = ros::Time();
   expectRefusal(message);
   message = leaning();
-  message.angular_velocity.z = kNan;
+  message.angular_velocity.z = kNotANumber;
   expectRefusal(message);
   message = leaning();
-  message.orientation.w = kNan;
+  message.orientation.w = kNotANumber;
   expectRefusal(message);
   message = leaning();
   message.angular_velocity_covariance[0] = -1.0;

@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr double kPeriod = 0.2;  // s
+constexpr double kStepTime = 0.2;  // s
 constexpr int kSteps = 40;
 
 // Fast enough for its bound to play no part.
@@ -29,9 +29,9 @@ TEST(ErrorState, WithoutAMatchThePoseGoesOnWithTheTwistsError) {
   Pose2 pose;
   double sigma = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    const StepPrediction prediction = predictStep(carrier(), twist, kPeriod);
+    const StepPrediction prediction = predictStep(carrier(), twist, kStepTime);
     sigma = std::sqrt(prediction.covariance(0, 0));
-    errors.advance(pose, prediction, prediction.step, kPeriod, {});
+    errors.advance(pose, prediction, prediction.step, kStepTime, {});
     pose = pose * prediction.step;
   }
   std::mt19937_64 random(1);
@@ -55,7 +55,7 @@ TEST(ErrorState, StaysPositiveDefiniteWhateverIsMeasured) {
   Pose2 pose;
   for (int i = 0; i < 500; ++i) {
     const Eigen::Vector3d twist(unit(random), 0.0, 2.0 * unit(random) - 1.0);
-    const StepPrediction prediction = predictStep(CarrierConfig(), twist, kPeriod);
+    const StepPrediction prediction = predictStep(CarrierConfig(), twist, kStepTime);
     // Along a corridor of any direction nothing is measured.
     const double direction = 6.0 * unit(random);
     const Eigen::Vector3d across(-std::sin(direction), std::cos(direction), 0.0);
@@ -64,7 +64,7 @@ TEST(ErrorState, StaysPositiveDefiniteWhateverIsMeasured) {
     measurement.information(2, 2) += i % 3 == 0 ? 0.0 : 1e6;
     measurement.common = 0.9 * unit(random);
     const Eigen::Matrix3d step =
-        errors.advance(pose, prediction, prediction.step, kPeriod, measurement);
+        errors.advance(pose, prediction, prediction.step, kStepTime, measurement);
     pose = pose * prediction.step;
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(step).eigenvalues().minCoeff(), 0.0);
     EXPECT_GT(
@@ -80,8 +80,8 @@ TEST(ErrorState, AMatchBoundsTheErrorAgainstTheReference) {
   measurement.information = Eigen::Vector3d(1e4, 1e4, 1e5).asDiagonal();
   Pose2 pose;
   for (int i = 0; i < kSteps; ++i) {
-    const StepPrediction prediction = predictStep(CarrierConfig(), {0.5, 0.0, 0.3}, kPeriod);
-    errors.advance(pose, prediction, prediction.step, kPeriod, measurement);
+    const StepPrediction prediction = predictStep(CarrierConfig(), {0.5, 0.0, 0.3}, kStepTime);
+    errors.advance(pose, prediction, prediction.step, kStepTime, measurement);
     pose = pose * prediction.step;
   }
   EXPECT_LE(errors.againstReference()(0, 0), 1.001e-4);

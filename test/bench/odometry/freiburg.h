@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/figures.h"
 #include "sightline/dead_reckoning/dead_reckoner.h"
 #include "sightline/geometry/angle.h"
 #include "sightline/logs/carmen_log.h"
@@ -103,11 +104,6 @@ inline LogRun runLog(const ScanLog& log, const LogRunOptions& options) {
     run.microseconds.push_back(spent.count());
   }
   return run;
-}
-
-inline double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 /// Ranges and angles to points, with the trigonometry that a conversion of its own would do.
