@@ -10,10 +10,20 @@ InputMonitor::InputMonitor(std::string topic, diagnostic_updater::Updater& updat
 }
 
 void InputMonitor::drop(const std::string& reason) {
-  ++dropped_;
-  last_reason_ = reason;
+  count(reason);
   ROS_WARN_THROTTLE(10.0, "%s: message dropped: %s (%zu so far)", topic_.c_str(), reason.c_str(),
                     dropped_);
+}
+
+void InputMonitor::skip(const std::string& reason) {
+  count(reason);
+  ROS_INFO_THROTTLE(10.0, "%s: message left out: %s (%zu so far)", topic_.c_str(), reason.c_str(),
+                    dropped_);
+}
+
+void InputMonitor::count(const std::string& reason) {
+  ++dropped_;
+  last_reason_ = reason;
 }
 
 void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -187,7 +187,11 @@ bool RoomTrackerNode::process(const Waiting& waiting) {
     return true;
   } catch (const tf2::TransformException& missing) {
     if (odometryMayCome(waiting)) return false;
-    scanner.monitor.drop(missing.what());
+    if (odometryBeganAfter(header)) {
+      scanner.monitor.skip("it is from before the odometry began");
+    } else {
+      scanner.monitor.drop(missing.what());
+    }
     return true;
   }
 }

@@ -15,11 +15,14 @@ class InputMonitor {
 
   void accept() { ++accepted_; }
   void drop(const std::string& reason);
+  /// Drops a message that nobody is to blame for: while a graph starts, some come too early.
+  void skip(const std::string& reason);
 
   std::size_t accepted() const { return accepted_; }
   std::size_t dropped() const { return dropped_; }
 
  private:
+  void count(const std::string& reason);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   std::string topic_;
