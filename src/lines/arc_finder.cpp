@@ -116,7 +116,7 @@ ArcFinder::ArcFinder(const LineExtractorConfig& config)
 void ArcFinder::find(const scan::Scan& scan, const BeamArray& beams, std::vector<Piece>& pieces,
                      std::vector<geometry::Arc>& arcs) {
   if (config_.max_radius <= 0.0 || beams.round == 0) return;
-  observations_.returns.reserve(beams.size);
+  observations_.returns.reserve(beams.beam.size());
   observations_.tangents.reserve(2);
   runs_.assign(beams, pieces);
   for (const Run& run : runs_.withDoubtfulWalls()) {

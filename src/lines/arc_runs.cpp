@@ -29,9 +29,11 @@ void ArcRuns::assign(const BeamArray& beams, const std::vector<Piece>& pieces) {
   beams_ = &beams;
   const bool circle = beams.size > beams.round;
   begin_ = circle && !pieces.empty() ? pieces.front().first : 0;
+  // The arrays are as long as the scan has beams, whatever came back.
+  owners_.reserve(beams.beam.size());
+  runs_.reserve(beams.beam.size());
+  loose_runs_.reserve(beams.beam.size());
   owners_.assign(beams.round, Owner::kNone);
-  runs_.reserve(beams.round);
-  loose_runs_.reserve(beams.round);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Owner owner = judge(pieces, i);
     if (owner != Owner::kNone) setOwner(pieces[i], owner);

@@ -99,8 +99,8 @@ struct NodeLoad {
   double cpu_percent = 0.0;          ///< of a core
 };
 
-/// Sends a node messages at a steady rate. Each has to bear its number as header.seq and a stamp of
-/// its own, which the answer repeats.
+/// Sends a node messages at a steady rate, stamped as steadily, whatever this process is late by.
+/// The answer has to repeat the stamp.
 template <class Message, class Answer>
 NodeLoad measureNode(const std::vector<std::string>& command, const std::string& in,
                      const std::string& out, const std::vector<Message>& messages, double rate,
@@ -129,6 +129,7 @@ NodeLoad measureNode(const std::vector<std::string>& command, const std::string&
   }
   const double cpu_before = node.cpuSeconds();
   const auto began = Clock::now();
+  const ros::Time first = ros::Time::now();
   const auto count = static_cast<std::size_t>(rate * seconds);
   for (std::size_t i = 0; i < count; ++i) {
     const auto due = began + std::chrono::duration_cast<Clock::duration>(
@@ -137,7 +138,7 @@ NodeLoad measureNode(const std::vector<std::string>& command, const std::string&
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.0005));
     }
     Message message = messages[i % messages.size()];
-    message.header.stamp = ros::Time::now();
+    message.header.stamp = first + ros::Duration(static_cast<double>(i) / rate);
     sent[message.header.stamp] = Clock::now();
     publisher.publish(message);
   }
