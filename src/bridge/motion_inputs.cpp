@@ -92,9 +92,4 @@ pipeline::OdometryAids MotionInputs::aidsFor(scan::Scan& scan, const geometry::P
   return aids;
 }
 
-void MotionInputs::clear() {
-  wheels_.clear();
-  imu_.clear();
-}
-
 }  // namespace sightline::bridge

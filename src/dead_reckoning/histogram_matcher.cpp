@@ -101,7 +101,7 @@ MatchOutcome HistogramMatcher::match(const Sweep& sweep, const geometry::Uncerta
   MatchOutcome outcome;
   outcome.searched = true;
   outcome.T_odom_base = prior.mean;
-  const Pose2 centre = geometry::between(T_odom_reference_, window.centre);
+  const Pose2 centre = geometry::between(*T_odom_reference_, window.centre);
   const double half = halfSide(window.position, config_.resolution);
   double best_cost = std::numeric_limits<double>::infinity();
   for (const HeadingCandidate& heading : headings(sweep, centre.theta(), window.heading)) {
@@ -110,7 +110,7 @@ MatchOutcome HistogramMatcher::match(const Sweep& sweep, const geometry::Uncerta
                                               centre.translation(), half, config_.resolution);
     if (minimum.cost >= best_cost) continue;
     best_cost = minimum.cost;
-    outcome.T_odom_base = T_odom_reference_ * Pose2(minimum.position, heading.heading);
+    outcome.T_odom_base = *T_odom_reference_ * Pose2(minimum.position, heading.heading);
   }
   if (best_cost > kMaxCost) return outcome;
   hold_ = best_cost < kHeldCost;
@@ -121,8 +121,7 @@ MatchOutcome HistogramMatcher::match(const Sweep& sweep, const geometry::Uncerta
 }
 
 double HistogramMatcher::learn(const Sweep& sweep, const Pose2& T_odom_base, MatchState) {
-  if ((has_reference_ && hold_) || sweep.points.empty()) return 0.0;
-  has_reference_ = true;
+  if ((T_odom_reference_ && hold_) || sweep.points.empty()) return 0.0;
   T_odom_reference_ = T_odom_base;
   reference_histograms_ = histograms(sweep);
   field_.draw(sweep.points, fieldDistance(config_.max_distance, kWidest));

@@ -135,7 +135,7 @@ MatchOutcome PoseSpaceMatcher::match(const Sweep& sweep, const geometry::Uncerta
   outcome.T_odom_base = prior.mean;
   if (sweep.points.empty()) return outcome;
   SearchWindow around = window;
-  around.centre = geometry::between(T_odom_reference_, window.centre);
+  around.centre = geometry::between(*T_odom_reference_, window.centre);
   const Correlation best = correlatePoses(sweep.points, reference_, around, config_);
   outcome.inliers = static_cast<double>(best.count) / static_cast<double>(sweep.points.size());
   if (outcome.inliers < kFewestCounted) return outcome;
@@ -146,7 +146,7 @@ MatchOutcome PoseSpaceMatcher::match(const Sweep& sweep, const geometry::Uncerta
   }
   hold_ = outcome.inliers >= config_.hold_share;
   outcome.state = MatchState::kMatched;
-  outcome.T_odom_base = T_odom_reference_ * T_reference_base;
+  outcome.T_odom_base = *T_odom_reference_ * T_reference_base;
   // Points of the reference are not where those of the scan are: that is what the error is made of,
   // and neighbours share it.
   outcome.information = surfaceInformation(sweep, outcome.T_odom_base, 5.0 * config_.threshold);
@@ -165,8 +165,7 @@ std::vector<fitting::PointPair> PoseSpaceMatcher::pairsAt(const Sweep& sweep,
 }
 
 double PoseSpaceMatcher::learn(const Sweep& sweep, const Pose2& T_odom_base, MatchState) {
-  if ((has_reference_ && hold_) || sweep.points.empty()) return 0.0;
-  has_reference_ = true;
+  if ((T_odom_reference_ && hold_) || sweep.points.empty()) return 0.0;
   T_odom_reference_ = T_odom_base;
   reference_ = SortedPoints(sweep.points);
   return 1.0;

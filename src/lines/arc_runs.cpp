@@ -11,7 +11,7 @@ namespace sightline::lines {
 
 namespace {
 
-// Lines that meet at more than this are no chords of one curve [sine, cosine].
+// Lines that meet at more than this are no chords of one curve [sine].
 constexpr double kMostBend = 0.75;
 // Noise alone does not part returns [σ].
 constexpr double kJump = 8.0;

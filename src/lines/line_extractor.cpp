@@ -164,6 +164,7 @@ std::size_t LineExtractor::mergeWithOneFrom(std::size_t first, const Merging& me
 void LineExtractor::extendBehindSmallThings() {
   const BreakPoints breaks(beams_, config_);
   const std::size_t count = pieces_.size();
+  const bool circle = beams_.size > beams_.round;
   for (std::size_t i = 0; i < count; ++i) {
     Piece& piece = pieces_[i];
     if (!isWall(piece, config_) || 2.0 * extent(beams_, piece) < config_.min_length) continue;
@@ -172,7 +173,9 @@ void LineExtractor::extendBehindSmallThings() {
       breaks.extendBackward(piece, pieces_[i - 1].first, limit);
     }
     if (i + 1 < count && isSmall(pieces_[i + 1])) {
-      const std::size_t limit = i + 2 < count ? pieces_[i + 2].first : beams_.size;
+      const std::size_t limit = i + 2 < count ? pieces_[i + 2].first
+                                : circle      ? pieces_.front().first + beams_.round
+                                              : beams_.size;
       breaks.extendForward(piece, pieces_[i + 1].end, limit);
     }
   }

@@ -40,7 +40,6 @@ class MotionInputs {
   /// it. `before` is the stamp of the scan before [ns].
   pipeline::OdometryAids aidsFor(scan::Scan& scan, const geometry::Pose2& T_base_sensor,
                                  std::optional<std::int64_t> before) const;
-  void clear();
 
  private:
   struct Input {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,11 +24,11 @@ class HistogramMatcher : public Matcher {
   std::unique_ptr<Matcher> clone() const override {
     return std::make_unique<HistogramMatcher>(*this);
   }
-  bool hasReference() const override { return has_reference_; }
+  bool hasReference() const override { return T_odom_reference_.has_value(); }
   MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
                      const SearchWindow& window) override;
   double learn(const Sweep& sweep, const geometry::Pose2& T_odom_base, MatchState state) override;
-  void clear() override { has_reference_ = false; }
+  void clear() override { T_odom_reference_.reset(); }
 
  private:
   std::vector<HeadingCandidate> headings(const Sweep& sweep, double centre,
@@ -35,9 +36,8 @@ class HistogramMatcher : public Matcher {
   std::vector<std::vector<double>> histograms(const Sweep& sweep) const;
 
   HistogramConfig config_;
-  bool has_reference_ = false;
   bool hold_ = false;
-  geometry::Pose2 T_odom_reference_;
+  std::optional<geometry::Pose2> T_odom_reference_;
   std::vector<std::vector<double>> reference_histograms_;  // by step size
   DistanceField field_;
 };

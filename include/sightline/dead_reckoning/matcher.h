@@ -31,6 +31,7 @@ class Matcher {
   virtual ~Matcher() = default;
   virtual std::unique_ptr<Matcher> clone() const = 0;
   virtual bool hasReference() const = 0;
+  /// Needs a reference.
   /// @param prior  what is known of the pose besides the scan
   virtual MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
                              const SearchWindow& window) = 0;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -51,20 +52,19 @@ class PoseSpaceMatcher : public Matcher {
   std::unique_ptr<Matcher> clone() const override {
     return std::make_unique<PoseSpaceMatcher>(*this);
   }
-  bool hasReference() const override { return has_reference_; }
+  bool hasReference() const override { return T_odom_reference_.has_value(); }
   MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
                      const SearchWindow& window) override;
   double learn(const Sweep& sweep, const geometry::Pose2& T_odom_base, MatchState state) override;
-  void clear() override { has_reference_ = false; }
+  void clear() override { T_odom_reference_.reset(); }
 
  private:
   std::vector<fitting::PointPair> pairsAt(const Sweep& sweep,
                                           const geometry::Pose2& T_reference_base) const;
 
   PoseSpaceConfig config_;
-  bool has_reference_ = false;
   bool hold_ = false;
-  geometry::Pose2 T_odom_reference_;
+  std::optional<geometry::Pose2> T_odom_reference_;
   SortedPoints reference_;
 };
 

@@ -4,8 +4,7 @@
 #include <cstring>
 
 /// In front of a function with a loop over packets: compiled for AVX2, too, where the compiler can,
-/// and chosen by the processor when the program is loaded. That saves a sixth of the extractor's
-/// instructions. Sanitizers are not ready that early.
+/// and chosen by the processor when the program is loaded. Sanitizers are not ready that early.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define SIGHTLINE_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))

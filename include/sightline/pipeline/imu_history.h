@@ -21,7 +21,6 @@ class ImuHistory {
   /// A reading that is not newer than the last one, or that comes after too long a gap to bridge,
   /// starts the history anew.
   void add(const ImuReading& reading);
-  void clear() { samples_.clear(); }
   std::optional<std::int64_t> newest() const;
 
   /// How far the base turned from one time to the other [rad]; nothing outside the history.
