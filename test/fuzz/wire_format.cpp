@@ -1,0 +1,89 @@
+// Any bytes, cut anywhere, read as the wire format: as they are, and with the checksums of whatever
+// looks like a frame put right, so that payloads are reached. A message that is understood is
+// written back to the same bytes.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "sightline/driver/frame_parser.h"
+#include "sightline/driver/messages.h"
+
+namespace {
+
+using namespace sightline::driver;
+
+void mendHeader(std::uint8_t* frame) {
+  const std::uint16_t check = headerChecksum({frame + 2, kHeaderSize - 4});
+  frame[kHeaderSize - 2] = static_cast<std::uint8_t>(check);
+  frame[kHeaderSize - 1] = static_cast<std::uint8_t>(check >> 8);
+}
+
+// Returns the size of the frame, or 0 where none fits into the bytes left.
+std::size_t mendFrame(std::uint8_t* frame, std::size_t left) {
+  if (left < kHeaderSize + kTrailerSize || frame[0] != kSync[0] || frame[1] != kSync[1]) return 0;
+  const std::size_t room = left - kHeaderSize - kTrailerSize;
+  const std::size_t payload = frame[6] | static_cast<std::size_t>(frame[7]) << 8;
+  if (payload > std::min(room, kMaxPayload)) return 0;
+  mendHeader(frame);
+  std::vector<std::uint8_t> check;
+  ByteWriter(check).u32(frameChecksum({frame + 2, kHeaderSize + payload - 2}));
+  std::copy(check.begin(), check.end(), frame + kHeaderSize + payload);
+  return kHeaderSize + payload + kTrailerSize;
+}
+
+std::vector<std::uint8_t> mended(std::vector<std::uint8_t> bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    at += std::max<std::size_t>(1, mendFrame(bytes.data() + at, bytes.size() - at));
+  }
+  return bytes;
+}
+
+template <class Message>
+void checkRoundTrip(const Frame& frame) {
+  Message message;
+  if (!decode(frame, message)) return;
+  const std::vector<std::uint8_t> payload(frame.payload.data,
+                                          frame.payload.data + frame.payload.size);
+  FrameEncoder encoder;
+  const auto& again = encoder.encode(frame.header, message);
+  if (again.size() != kHeaderSize + payload.size() + kTrailerSize) std::abort();
+  if (!std::equal(payload.begin(), payload.end(), again.begin() + kHeaderSize)) std::abort();
+}
+
+void checkMessages(const Frame& frame) {
+  checkRoundTrip<Identify>(frame);
+  checkRoundTrip<Start>(frame);
+  checkRoundTrip<Stop>(frame);
+  checkRoundTrip<HeadTarget>(frame);
+  checkRoundTrip<Ping>(frame);
+  checkRoundTrip<Identity>(frame);
+  checkRoundTrip<Acknowledgement>(frame);
+  checkRoundTrip<Pong>(frame);
+  checkRoundTrip<ScanReport>(frame);
+}
+
+// The number of frames, fed in pieces of such a size.
+std::size_t parse(const std::vector<std::uint8_t>& bytes, std::size_t piece) {
+  FrameParser parser;
+  for (std::size_t taken = 0; taken < bytes.size();) {
+    const std::size_t size = std::min(piece, bytes.size() - taken);
+    const std::size_t accepted = parser.append({bytes.data() + taken, size});
+    if (accepted == 0) std::abort();
+    taken += accepted;
+    while (const auto frame = parser.next()) checkMessages(*frame);
+  }
+  return parser.counts().frames;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::size_t piece = 1U + data[0];
+  const std::vector<std::uint8_t> bytes(data + 1, data + size);
+  for (const auto& stream : {bytes, mended(bytes)}) {
+    if (parse(stream, piece) != parse(stream, stream.size() + 1)) std::abort();
+  }
+  return 0;
+}
