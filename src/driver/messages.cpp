@@ -23,17 +23,20 @@ double fromMicro(std::int32_t value) {
 
 }  // namespace
 
+// The modes on the line are numbered as in the enumeration.
 void HeadTarget::write(ByteWriter& writer) const {
-  writer.u8(static_cast<std::uint8_t>(mode));
-  writer.i32(toMicro(position));
-  writer.i32(toMicro(rate));
+  writer.u8(static_cast<std::uint8_t>(command.mode));
+  writer.i32(toMicro(command.position));
+  writer.i32(toMicro(command.rate));
 }
 
 bool HeadTarget::read(ByteReader& reader) {
-  mode = static_cast<HeadMode>(reader.u8());
-  position = fromMicro(reader.i32());
-  rate = fromMicro(reader.i32());
-  return mode <= HeadMode::kStop;
+  using Mode = triangulation::HeadCommand::Mode;
+  const std::uint8_t mode = reader.u8();
+  command.mode = static_cast<Mode>(mode);
+  command.position = fromMicro(reader.i32());
+  command.rate = fromMicro(reader.i32());
+  return mode <= static_cast<std::uint8_t>(Mode::kStop);
 }
 
 bool Ping::read(ByteReader& reader) {

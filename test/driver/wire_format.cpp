@@ -69,8 +69,9 @@ TEST(WireFormat, ChecksumsAreTheStandardOnes) {
 
 TEST(WireFormat, MessagesComeBackAsTheyWereSent) {
   EXPECT_EQ(sentAndRead(Ping{123456789}).token, 123456789U);
-  const auto target = sentAndRead(HeadTarget{HeadMode::kPosition, -1.570796, 3.5});
-  EXPECT_EQ(target.mode, HeadMode::kPosition);
+  using Mode = triangulation::HeadCommand::Mode;
+  const auto target = sentAndRead(HeadTarget{{Mode::kPosition, -1.570796, 3.5}}).command;
+  EXPECT_EQ(target.mode, Mode::kPosition);
   EXPECT_NEAR(target.position, -1.570796, 1e-12);
   EXPECT_NEAR(target.rate, 3.5, 1e-12);
   const auto identity = sentAndRead(Identity{kModel, "0042", 2, 13, 256, 0xCAFE});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sightline/driver/frame.h"
+#include "sightline/triangulation/head_command.h"
 
 /// The payloads of frames (docs/wire_format.md). write() appends one; read() takes one and says
 /// whether its values make sense.
@@ -28,19 +29,10 @@ struct Stop {
   bool read(ByteReader&) { return true; }
 };
 
-enum class HeadMode : std::uint8_t {
-  kPosition,  ///< go there and stay
-  kRate,      ///< turn on until told otherwise, or to the end
-  kStop,      ///< stop here
-};
-
-/// Where the head shall turn, counter-clockwise from straight ahead. Angles travel in whole
-/// microradians.
+/// Where the head shall turn. Angles travel in whole microradians.
 struct HeadTarget {
   static constexpr FrameKind kKind = FrameKind::kHeadTarget;
-  HeadMode mode = HeadMode::kStop;
-  double position = 0.0;  ///< kPosition [rad]
-  double rate = 0.0;      ///< kRate [rad/s]; kPosition: at most so fast, 0 for as fast as it can
+  triangulation::HeadCommand command;
 
   void write(ByteWriter& writer) const;
   bool read(ByteReader& reader);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "sightline/triangulation/head_command.h"
+
+namespace sightline::simulation {
+
+/// The servo platform that turns the sensor head: follows commands with limited rate and
+/// acceleration, brakes before its target and before its limits, and knows its position in steps.
+class SensorHead {
+ public:
+  /// Stands at 0, or at the limit next to it. Throws config::Error.
+  explicit SensorHead(const triangulation::HeadLimits& limits);
+
+  /// Positions are rounded to the servo's steps. A command that limits().fault() names is to be
+  /// refused before; here it does nothing.
+  void command(const triangulation::HeadCommand& command);
+  /// Moves on by `duration` [s], small against the time that the rate takes to change.
+  void step(double duration);
+
+  double angle() const { return angle_; }  ///< true one [rad]
+  double rate() const { return rate_; }    ///< [rad/s]
+  /// As the encoder says: in steps [rad].
+  double reportedAngle() const { return limits_.rounded(angle_); }
+  const triangulation::HeadLimits& limits() const { return limits_; }
+
+ private:
+  double target() const;
+  double wantedRate(double duration) const;
+
+  triangulation::HeadLimits limits_;
+  triangulation::HeadCommand command_;
+  double angle_;
+  double rate_ = 0.0;
+};
+
+}  // namespace sightline::simulation

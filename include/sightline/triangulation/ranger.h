@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sightline/scan/scan.h"
+#include "sightline/triangulation/calibration.h"
+#include "sightline/triangulation/photocurrents.h"
+
+namespace sightline::triangulation {
+
+/// What a sensor delivers of one scan, one entry a beam.
+struct RawScan {
+  std::int64_t stamp = 0;  ///< of the first sample, nanoseconds
+  std::vector<Photocurrents> currents;
+  std::vector<double> head_angles;  ///< of the head's joint [rad]
+};
+
+/// A scan whose sensor turned with its head.
+struct RangeScan {
+  /// In the projection frame at the first beam; intensities are the total currents [A], and
+  /// sensor_motion is empty where the head stood still.
+  scan::Scan scan;
+  std::vector<double> head_angles;                   ///< [rad], one a beam
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< of the projection frame in the head's [m]
+};
+
+/// Pose of the projection frame at each beam, in that of the first one, while the head turns about
+/// its axis; `origin` is that of the projection frame in the head's frame [m]. Empty where it stood
+/// still (pears eqs 15-20 are what this does to a line).
+std::vector<geometry::Pose2> headMotion(const std::vector<double>& head_angles,
+                                        const Eigen::Vector2d& origin);
+
+/// One measurement.
+struct RangeReading {
+  scan::ReturnKind kind = scan::ReturnKind::kInvalid;
+  double range = 0.0;     ///< along the beam [m]; meaningless where there was too little light
+  double variance = 0.0;  ///< along the beam [m²], eq. 2 times the squared gain of the table
+  double depth = 0.0;     ///< in the projection frame, straight ahead [m]
+};
+
+/// Photocurrents into ranges, by calibration.
+class Ranger {
+ public:
+  explicit Ranger(Calibration calibration);
+
+  /// Of one beam. Too little light is invalid (NaN, REP-117); what is nearer or farther than the
+  /// range limits, or than the table knows, is too near (−Inf) or nothing (+Inf).
+  RangeReading read(std::size_t beam, const Photocurrents& currents) const;
+
+  /// Throws scan::InvalidScan where the number of currents or of head angles is not that of the
+  /// beams, or a head angle is not finite.
+  RangeScan range(const RawScan& raw) const;
+
+  const Calibration& calibration() const { return calibration_; }
+  const std::shared_ptr<const scan::ScanGeometry>& geometry() const { return geometry_; }
+
+ private:
+  void check(const RawScan& raw) const;
+
+  Calibration calibration_;
+  std::shared_ptr<const scan::ScanGeometry> geometry_;
+};
+
+}  // namespace sightline::triangulation

@@ -1,0 +1,33 @@
+#include "sightline/triangulation/scan_pattern.h"
+
+namespace sightline::triangulation {
+
+void ScanPattern::visit(config::FieldVisitor& visitor) {
+  visitor.integer("beams", beams, {"1", {2, 10000}, "samples of a scan (pears table 1)"});
+  visitor.number("field_of_view", field_of_view,
+                 {"rad", {0.01, geometry::radians(120.0)}, "from the first beam to the last"});
+  visitor.number("sample_rate", sample_rate, {"Hz", {1.0, 1e6}, "of the measurements in a scan"});
+  visitor.number("range_min", range_min, {"m", config::kPositive, "nearest range along a beam"});
+  visitor.number("range_max", range_max, {"m", config::kPositive, "farthest range along a beam"});
+  visitor.number("min_current", min_current,
+                 {"A", config::kPositive, "with less light there is no measurement"});
+}
+
+void ScanPattern::check(const std::string& source) const {
+  config::validate(*this, source);
+  if (range_min >= range_max) {
+    throw config::Error(source, 0, "range_min", "is not below range_max");
+  }
+}
+
+double ScanPattern::scanAngle(double beam) const {
+  return field_of_view * (beam / (beams - 1) - 0.5);
+}
+
+std::shared_ptr<const scan::ScanGeometry> ScanPattern::geometry(double projected_vergence) const {
+  return scan::ScanGeometry::uniform(scanAngle(0) + projected_vergence, scanAngle(1) - scanAngle(0),
+                                     static_cast<std::size_t>(beams), 1.0 / sample_rate, range_min,
+                                     range_max);
+}
+
+}  // namespace sightline::triangulation
