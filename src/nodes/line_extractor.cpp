@@ -12,6 +12,7 @@
 #include "sightline/bridge/line_messages.h"
 #include "sightline/bridge/line_settings.h"
 #include "sightline/bridge/parameters.h"
+#include "sightline/bridge/range_scan_conversion.h"
 #include "sightline/bridge/scan_conversion.h"
 #include "sightline/bridge/sweep_from_tf.h"
 #include "sightline/lines/line_extractor.h"
@@ -26,16 +27,21 @@ class LineExtractorNode {
 
  private:
   void onScan(const sensor_msgs::LaserScanConstPtr& message);
-  void extract(scan::Scan& scan);
+  void onRangeScan(const RangeScanConstPtr& message);
+  template <class AnyScan>
+  void correct(AnyScan& scan);
+  void extract(const scan::Scan& scan);
   void onReconfigure(const LineExtractorConfig& settings);
   void reportMotion(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   LineExtractorNodeConfig config_;
   bridge::ScanReader reader_;
+  bridge::RangeScanReader range_reader_;
   lines::LineExtractor extractor_;
   bridge::LineMarkers markers_;
   diagnostic_updater::Updater updater_;
   bridge::InputMonitor monitor_;
+  bridge::InputMonitor range_monitor_;
   std::optional<bridge::SweepFromTf> sweep_;
   std::size_t corrected_ = 0;
   std::size_t uncorrected_ = 0;
@@ -45,6 +51,7 @@ class LineExtractorNode {
   ros::Publisher lines_publisher_;
   ros::Publisher marker_publisher_;
   ros::Subscriber subscriber_;
+  ros::Subscriber range_subscriber_;
   ros::WallTimer diagnostics_timer_;
 };
 
@@ -55,6 +62,7 @@ LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle priva
       markers_(config_.markers),
       updater_(node, private_node),
       monitor_(node.resolveName("scan"), updater_),
+      range_monitor_(node.resolveName("range_scan"), updater_),
       reconfigure_(reconfigure_mutex_, ros::NodeHandle(private_node, "lines")) {
   updater_.setHardwareID("none");
   if (!config_.fixed_frame.empty()) {
@@ -67,6 +75,7 @@ LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle priva
   lines_publisher_ = node.advertise<LineSegmentArray>("lines", 10);
   marker_publisher_ = node.advertise<visualization_msgs::MarkerArray>("line_markers", 10);
   subscriber_ = node.subscribe("scan", 10, &LineExtractorNode::onScan, this);
+  range_subscriber_ = node.subscribe("range_scan", 10, &LineExtractorNode::onRangeScan, this);
   diagnostics_timer_ = node.createWallTimer(
       ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { updater_.update(); });
 }
@@ -79,14 +88,30 @@ void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   try {
     scan::Scan scan = reader_.read(*message);
     monitor_.accept();
+    correct(scan);
     extract(scan);
   } catch (const scan::InvalidScan& fault) {
     monitor_.drop(fault.what());
   }
 }
 
-void LineExtractorNode::extract(scan::Scan& scan) {
+void LineExtractorNode::onRangeScan(const RangeScanConstPtr& message) {
+  try {
+    triangulation::RangeScan range_scan = range_reader_.read(*message);
+    range_monitor_.accept();
+    correct(range_scan);
+    extract(range_scan.scan);
+  } catch (const scan::InvalidScan& fault) {
+    range_monitor_.drop(fault.what());
+  }
+}
+
+template <class AnyScan>
+void LineExtractorNode::correct(AnyScan& scan) {
   if (sweep_) ++(sweep_->addMotion(scan) ? corrected_ : uncorrected_);
+}
+
+void LineExtractorNode::extract(const scan::Scan& scan) {
   const auto& segments = extractor_.extract(scan);
   const auto message =
       boost::make_shared<LineSegmentArray>(bridge::toMessage(segments, extractor_.arcs(), scan));
