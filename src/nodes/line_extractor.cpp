@@ -16,6 +16,7 @@
 #include "sightline/bridge/scan_conversion.h"
 #include "sightline/bridge/sweep_from_tf.h"
 #include "sightline/lines/line_extractor.h"
+#include "sightline/lines/plain_extractor.h"
 
 namespace sightline::nodes {
 
@@ -38,10 +39,10 @@ class LineExtractorNode {
   bridge::ScanReader reader_;
   bridge::RangeScanReader range_reader_;
   lines::LineExtractor extractor_;
+  lines::PlainExtractor plain_extractor_;
   bridge::LineMarkers markers_;
   diagnostic_updater::Updater updater_;
   bridge::InputMonitor monitor_;
-  bridge::InputMonitor range_monitor_;
   std::optional<bridge::SweepFromTf> sweep_;
   std::size_t corrected_ = 0;
   std::size_t uncorrected_ = 0;
@@ -51,18 +52,21 @@ class LineExtractorNode {
   ros::Publisher lines_publisher_;
   ros::Publisher marker_publisher_;
   ros::Subscriber subscriber_;
-  ros::Subscriber range_subscriber_;
   ros::WallTimer diagnostics_timer_;
 };
+
+const char* topicOf(LineExtractorInput input) {
+  return input == LineExtractorInput::kScan ? "scan" : "range_scan";
+}
 
 LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : config_(bridge::readParameters<LineExtractorNodeConfig>(private_node)),
       reader_(config_.noise),
       extractor_(config_.lines),
+      plain_extractor_(config_.lines),
       markers_(config_.markers),
       updater_(node, private_node),
-      monitor_(node.resolveName("scan"), updater_),
-      range_monitor_(node.resolveName("range_scan"), updater_),
+      monitor_(node.resolveName(topicOf(config_.input)), updater_),
       reconfigure_(reconfigure_mutex_, ros::NodeHandle(private_node, "lines")) {
   updater_.setHardwareID("none");
   if (!config_.fixed_frame.empty()) {
@@ -74,14 +78,17 @@ LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle priva
       [this](LineExtractorConfig& settings, std::uint32_t) { onReconfigure(settings); });
   lines_publisher_ = node.advertise<LineSegmentArray>("lines", 10);
   marker_publisher_ = node.advertise<visualization_msgs::MarkerArray>("line_markers", 10);
-  subscriber_ = node.subscribe("scan", 10, &LineExtractorNode::onScan, this);
-  range_subscriber_ = node.subscribe("range_scan", 10, &LineExtractorNode::onRangeScan, this);
+  subscriber_ = config_.input == LineExtractorInput::kScan
+                    ? node.subscribe("scan", 10, &LineExtractorNode::onScan, this)
+                    : node.subscribe("range_scan", 10, &LineExtractorNode::onRangeScan, this);
   diagnostics_timer_ = node.createWallTimer(
       ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { updater_.update(); });
 }
 
 void LineExtractorNode::onReconfigure(const LineExtractorConfig& settings) {
-  extractor_ = lines::LineExtractor(bridge::fromReconfigure(settings));
+  const auto config = bridge::fromReconfigure(settings);
+  extractor_ = lines::LineExtractor(config);
+  plain_extractor_ = lines::PlainExtractor(config);
 }
 
 void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
@@ -98,11 +105,11 @@ void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
 void LineExtractorNode::onRangeScan(const RangeScanConstPtr& message) {
   try {
     triangulation::RangeScan range_scan = range_reader_.read(*message);
-    range_monitor_.accept();
+    monitor_.accept();
     correct(range_scan);
     extract(range_scan.scan);
   } catch (const scan::InvalidScan& fault) {
-    range_monitor_.drop(fault.what());
+    monitor_.drop(fault.what());
   }
 }
 
@@ -112,7 +119,8 @@ void LineExtractorNode::correct(AnyScan& scan) {
 }
 
 void LineExtractorNode::extract(const scan::Scan& scan) {
-  const auto& segments = extractor_.extract(scan);
+  const auto& segments = config_.method == LineMethod::kFull ? extractor_.extract(scan)
+                                                             : plain_extractor_.extract(scan);
   const auto message =
       boost::make_shared<LineSegmentArray>(bridge::toMessage(segments, extractor_.arcs(), scan));
   lines_publisher_.publish(message);
