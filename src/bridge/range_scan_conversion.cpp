@@ -58,6 +58,7 @@ RangeScan toMessage(const triangulation::RangeScan& range_scan) {
   message.variances = range_scan.scan.range_variances;
   message.currents = scan.intensities;
   message.head_angles = range_scan.head_angles;
+  message.mount_frame = range_scan.mount_frame;
   message.origin_x = range_scan.origin.x();
   message.origin_y = range_scan.origin.y();
   return message;
@@ -87,6 +88,7 @@ triangulation::RangeScan RangeScanReader::read(const RangeScan& message) {
   result.scan.intensities.assign(message.currents.begin(), message.currents.end());
   takeVariances(message, result.scan);
   result.head_angles = message.head_angles;
+  result.mount_frame = message.mount_frame;
   result.origin = {message.origin_x, message.origin_y};
   result.scan.sensor_motion = triangulation::headMotion(result.head_angles, result.origin);
   return result;
