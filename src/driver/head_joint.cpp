@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <console_bridge/console.h>
+#include <fmt/format.h>
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -45,10 +46,23 @@ bool isParallel(const urdf::Rotation& rotation) {
   return std::abs(std::abs(rotation.w) - 1.0) < kExact;
 }
 
-void checkHead(const urdf::Joint& joint, const std::string& source) {
+void requireLink(const std::string& found, const std::string& wanted, const char* which,
+                 const urdf::Joint& joint, const std::string& source) {
+  if (found == wanted) return;
+  refuse(source, joint.name, fmt::format("its {} is '{}', not '{}'", which, found, wanted));
+}
+
+void checkHead(const urdf::Joint& joint, const HeadFrames& frames, const std::string& source) {
+  requireLink(joint.parent_link_name, frames.mount, "parent", joint, source);
+  requireLink(joint.child_link_name, frames.head, "child", joint, source);
   if (joint.type != urdf::Joint::REVOLUTE) refuse(source, joint.name, "is not revolute");
   if (std::abs(joint.axis.x) > kExact || std::abs(joint.axis.y) > kExact || joint.axis.z < kExact) {
     refuse(source, joint.name, "does not turn about z");
+  }
+  const urdf::Pose& origin = joint.parent_to_joint_origin_transform;
+  const urdf::Vector3& at = origin.position;
+  if (std::hypot(at.x, at.y, at.z) > kExact || !isParallel(origin.rotation)) {
+    refuse(source, joint.name, "does not sit in the origin of '" + frames.mount + "'");
   }
   if (!joint.limits) refuse(source, joint.name, "has no limits");
 }
@@ -62,13 +76,13 @@ triangulation::HeadLimits limitsOf(const urdf::Joint& joint, const std::string& 
   return limits;
 }
 
-Eigen::Vector2d originOf(const urdf::ModelInterface& model, const std::string& frame,
-                         const urdf::Joint& head, const std::string& source) {
-  const auto link = model.getLink(frame);
-  if (!link) refuse(source, frame, "no such link");
+Eigen::Vector2d scanOriginOf(const urdf::ModelInterface& model, const HeadFrames& frames,
+                             const std::string& source) {
+  const auto link = model.getLink(frames.projection);
+  if (!link) refuse(source, frames.projection, "no such link");
   const auto joint = link->parent_joint;
-  if (!joint || joint->parent_link_name != head.child_link_name) {
-    refuse(source, frame, "does not hang on '" + head.child_link_name + "'");
+  if (!joint || joint->parent_link_name != frames.head) {
+    refuse(source, frames.projection, "does not hang on '" + frames.head + "'");
   }
   const urdf::Pose& origin = joint->parent_to_joint_origin_transform;
   if (joint->type != urdf::Joint::FIXED) refuse(source, joint->name, "is not fixed");
@@ -78,13 +92,13 @@ Eigen::Vector2d originOf(const urdf::ModelInterface& model, const std::string& f
 
 }  // namespace
 
-HeadJoint HeadJoint::fromUrdf(const std::string& xml, const std::string& joint,
-                              const std::string& projection_frame, const std::string& source) {
+HeadJoint HeadJoint::fromUrdf(const std::string& xml, const HeadFrames& frames,
+                              const std::string& source) {
   const auto model = parse(xml, source);
-  const auto head = model->getJoint(joint);
-  if (!head) refuse(source, joint, "no such joint");
-  checkHead(*head, source);
-  return {joint, limitsOf(*head, source), originOf(*model, projection_frame, *head, source)};
+  const auto head = model->getJoint(frames.joint);
+  if (!head) refuse(source, frames.joint, "no such joint");
+  checkHead(*head, frames, source);
+  return {limitsOf(*head, source), scanOriginOf(*model, frames, source)};
 }
 
 }  // namespace sightline::driver

@@ -26,16 +26,17 @@ std::string changed(const std::string& from, const std::string& to) {
   return xml.replace(at, from.size(), to);
 }
 
-std::string faultOf(const std::string& xml, const std::string& joint = "head_joint") {
-  const auto error = test::errorOf([&] { HeadJoint::fromUrdf(xml, joint, "projection", "robot"); });
+const HeadFrames kFrames{"head_joint", "active_sensor", "head", "projection"};
+
+std::string faultOf(const std::string& xml, const HeadFrames& frames = kFrames) {
+  const auto error = test::errorOf([&] { HeadJoint::fromUrdf(xml, frames, "robot"); });
   return error.what();
 }
 
 TEST(HeadJoint, ShippedDescriptionIsThatOfTheSensor) {
-  const HeadJoint joint = HeadJoint::fromUrdf(shippedUrdf(), "head_joint", "projection", "robot");
+  const HeadJoint joint = HeadJoint::fromUrdf(shippedUrdf(), kFrames, "robot");
   const triangulation::HeadLimits limits;
   const triangulation::ScanOrigin origin;
-  EXPECT_EQ(joint.name, "head_joint");
   EXPECT_NEAR(joint.limits.lower, limits.lower, 1e-12);
   EXPECT_NEAR(joint.limits.upper, limits.upper, 1e-12);
   EXPECT_NEAR(joint.limits.max_rate, limits.max_rate, 1e-12);
@@ -43,7 +44,14 @@ TEST(HeadJoint, ShippedDescriptionIsThatOfTheSensor) {
 }
 
 TEST(HeadJoint, WhatDoesNotFitIsNamed) {
-  EXPECT_EQ(faultOf(shippedUrdf(), "neck"), "robot: neck: no such joint");
+  EXPECT_EQ(faultOf(shippedUrdf(), {"neck", "active_sensor", "head", "projection"}),
+            "robot: neck: no such joint");
+  EXPECT_EQ(faultOf(shippedUrdf(), {"head_joint", "base_link", "head", "projection"}),
+            "robot: head_joint: its parent is 'active_sensor', not 'base_link'");
+  EXPECT_EQ(faultOf(shippedUrdf(), {"head_joint", "active_sensor", "head", "lens"}),
+            "robot: lens: no such link");
+  EXPECT_EQ(faultOf(changed("<axis xyz=", "<origin xyz=\"0 0 1\"/><axis xyz=")),
+            "robot: head_joint: does not sit in the origin of 'active_sensor'");
   EXPECT_THAT(faultOf("<robot"), HasSubstr("robot: not a robot description: Failed to read"));
   EXPECT_THAT(faultOf(""), HasSubstr("robot: not a robot description: "));
   EXPECT_EQ(faultOf(changed("<joint name=\"head_joint\" type=\"revolute\">",
@@ -55,8 +63,8 @@ TEST(HeadJoint, WhatDoesNotFitIsNamed) {
               HasSubstr("head_joint"));
   EXPECT_THAT(faultOf(changed("<link name=\"projection\"/>", "")),
               HasSubstr("child link [projection] of joint [projection_joint] not found"));
-  EXPECT_EQ(faultOf(changed("<parent link=\"sensor_head\"/>", "<parent link=\"base_link\"/>")),
-            "robot: projection: does not hang on 'sensor_head'");
+  EXPECT_EQ(faultOf(changed("<parent link=\"head\"/>", "<parent link=\"base_link\"/>")),
+            "robot: projection: does not hang on 'head'");
   EXPECT_EQ(faultOf(changed("<joint name=\"projection_joint\" type=\"fixed\">",
                             "<joint name=\"projection_joint\" type=\"floating\">")),
             "robot: projection_joint: is not fixed");

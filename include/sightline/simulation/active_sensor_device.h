@@ -1,12 +1,19 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <Eigen/Geometry>
 
 #include "sightline/driver/device_model.h"
 #include "sightline/simulation/active_sensor.h"
+#include "sightline/simulation/emulated_firmware.h"
 #include "sightline/world/world.h"
 
 namespace sightline::simulation {
+
+/// What the device of such a sensor says of itself.
+FirmwareConfig firmwareOf(const ActiveSensorProfile& profile);
 
 /// A simulated sensor that stands still in a world, for an emulated device.
 class ActiveSensorDevice : public driver::DeviceModel {
@@ -16,14 +23,8 @@ class ActiveSensorDevice : public driver::DeviceModel {
                      const Eigen::Isometry3d& T_map_mount, std::uint64_t seed)
       : sensor_(profile, seed), world_(std::move(world)), T_map_mount_(T_map_mount) {}
 
-  std::vector<triangulation::RawScan> advance(std::int64_t time) override {
-    return sensor_.advance(world_, time, [this](std::int64_t) { return T_map_mount_; });
-  }
-  bool command(const triangulation::HeadCommand& command) override {
-    if (!sensor_.head().limits().fault(command).empty()) return false;
-    sensor_.command(command);
-    return true;
-  }
+  std::vector<triangulation::RawScan> advance(std::int64_t time) override;
+  bool command(const triangulation::HeadCommand& command) override;
 
  private:
   ActiveSensor sensor_;
