@@ -13,12 +13,12 @@ using testing::HasSubstr;
 const std::string kHeader =
     "beam,target,depth_m,readings,current_A,image_position_m,stripe_edge_m,stripe_width_m\n";
 
-CalibrationRecording readText(const std::string& text) {
+CalibrationRecording readCsv(const std::string& text) {
   return readRecording(config::CsvTable::parse(text, "r.csv"), SensorParameters());
 }
 
 TEST(CalibrationRecording, GathersRowsByPlacement) {
-  const auto recording = readText(kHeader +
+  const auto recording = readCsv(kHeader +
                                   "7,plain,1,40,2e-8,1e-3,,\n"
                                   "3,striped,1,20,3e-9,-2e-3,-0.5,0.06\n"
                                   "2,plain,1,40,2.5e-8,1.1e-3,,\n");
@@ -41,7 +41,7 @@ TEST(CalibrationRecording, IsWrittenToTheLastDigit) {
   CalibrationRecording recording;
   recording.placements.push_back({1.0 / 3.0, {}, {{0, 40, 1e-3 / 3.0, 2e-8 / 3.0}}});
   recording.placements.push_back({1.0 / 7.0, Stripes{-0.1, 0.06}, {{255, 1, -1e-3 / 7.0, 1e-9}}});
-  const auto back = readText(toCsv(recording));
+  const auto back = readCsv(toCsv(recording));
   ASSERT_EQ(back.placements.size(), 2U);
   EXPECT_EQ(back.placements[0].depth, 1.0 / 3.0);
   EXPECT_EQ(back.placements[0].beams[0].image_position, 1e-3 / 3.0);
@@ -53,8 +53,8 @@ TEST(CalibrationRecording, IsWrittenToTheLastDigit) {
 
 TEST(CalibrationRecording, PlainTargetsNeedNoStripeColumns) {
   const std::string header = "target,depth_m,beam,readings,image_position_m,current_A\n";
-  EXPECT_EQ(readText(header + "plain,1,0,1,0,1e-8\n").placements.size(), 1U);
-  EXPECT_STREQ(errorOf([&] { readText(header + "striped,1,0,1,0,1e-8\n"); }).key().c_str(),
+  EXPECT_EQ(readCsv(header + "plain,1,0,1,0,1e-8\n").placements.size(), 1U);
+  EXPECT_STREQ(errorOf([&] { readCsv(header + "striped,1,0,1,0,1e-8\n"); }).key().c_str(),
                "stripe_width_m");
 }
 
@@ -74,16 +74,16 @@ TEST(CalibrationRecording, NamesTheColumnAtFault) {
         Case{"1,striped,1,40,2e-8,1e-3,,1", "stripe_edge_m"},
         Case{"9,plain,1,40,2e-8,1e-3,,", "beam"}}) {
     const auto error =
-        errorOf([&] { readText(kHeader + "9,plain,1,40,2e-8,1e-3,,\n" + fault.row + "\n"); });
+        errorOf([&] { readCsv(kHeader + "9,plain,1,40,2e-8,1e-3,,\n" + fault.row + "\n"); });
     EXPECT_EQ(error.key(), fault.column) << fault.row;
     EXPECT_EQ(error.line(), 3) << fault.row;
   }
 }
 
 TEST(CalibrationRecording, RefusesAFileWithoutReadingsOrWithAMissingColumn) {
-  EXPECT_THAT(errorOf([] { readText(kHeader); }).what(), HasSubstr("holds no reading"));
+  EXPECT_THAT(errorOf([] { readCsv(kHeader); }).what(), HasSubstr("holds no reading"));
   const auto error =
-      errorOf([] { readText("target,depth_m,beam,readings,image_position_m\nplain,1,0,1,0\n"); });
+      errorOf([] { readCsv("target,depth_m,beam,readings,image_position_m\nplain,1,0,1,0\n"); });
   EXPECT_EQ(error.key(), "current_A");
   EXPECT_EQ(error.line(), 1);
 }
