@@ -43,4 +43,15 @@ bool SweepFromTf::addMotion(scan::Scan& scan) const {
   return pipeline::addMotion(scan, poseAt, geometry::Pose2()).has_value();
 }
 
+bool SweepFromTf::addMotion(triangulation::RangeScan& range_scan) const {
+  scan::Scan mount;
+  mount.geometry = range_scan.scan.geometry;
+  mount.stamp = range_scan.scan.stamp;
+  mount.frame = range_scan.mount_frame;
+  if (!addMotion(mount)) return false;
+  range_scan.scan.sensor_motion =
+      triangulation::headMotion(range_scan.head_angles, range_scan.origin, mount.sensor_motion);
+  return true;
+}
+
 }  // namespace sightline::bridge

@@ -12,9 +12,11 @@
 #include "sightline/bridge/line_messages.h"
 #include "sightline/bridge/line_settings.h"
 #include "sightline/bridge/parameters.h"
+#include "sightline/bridge/range_scan_conversion.h"
 #include "sightline/bridge/scan_conversion.h"
 #include "sightline/bridge/sweep_from_tf.h"
 #include "sightline/lines/line_extractor.h"
+#include "sightline/lines/plain_extractor.h"
 
 namespace sightline::nodes {
 
@@ -26,13 +28,18 @@ class LineExtractorNode {
 
  private:
   void onScan(const sensor_msgs::LaserScanConstPtr& message);
-  void extract(scan::Scan& scan);
+  void onRangeScan(const RangeScanConstPtr& message);
+  template <class AnyScan>
+  void correct(AnyScan& scan);
+  void extract(const scan::Scan& scan);
   void onReconfigure(const LineExtractorConfig& settings);
   void reportMotion(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   LineExtractorNodeConfig config_;
   bridge::ScanReader reader_;
+  bridge::RangeScanReader range_reader_;
   lines::LineExtractor extractor_;
+  lines::PlainExtractor plain_extractor_;
   bridge::LineMarkers markers_;
   diagnostic_updater::Updater updater_;
   bridge::InputMonitor monitor_;
@@ -48,13 +55,18 @@ class LineExtractorNode {
   ros::WallTimer diagnostics_timer_;
 };
 
+const char* topicOf(LineExtractorInput input) {
+  return input == LineExtractorInput::kScan ? "scan" : "range_scan";
+}
+
 LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : config_(bridge::readParameters<LineExtractorNodeConfig>(private_node)),
       reader_(config_.noise),
       extractor_(config_.lines),
+      plain_extractor_(config_.lines),
       markers_(config_.markers),
       updater_(node, private_node),
-      monitor_(node.resolveName("scan"), updater_),
+      monitor_(node.resolveName(topicOf(config_.input)), updater_),
       reconfigure_(reconfigure_mutex_, ros::NodeHandle(private_node, "lines")) {
   updater_.setHardwareID("none");
   if (!config_.fixed_frame.empty()) {
@@ -66,28 +78,49 @@ LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle priva
       [this](LineExtractorConfig& settings, std::uint32_t) { onReconfigure(settings); });
   lines_publisher_ = node.advertise<LineSegmentArray>("lines", 10);
   marker_publisher_ = node.advertise<visualization_msgs::MarkerArray>("line_markers", 10);
-  subscriber_ = node.subscribe("scan", 10, &LineExtractorNode::onScan, this);
+  subscriber_ = config_.input == LineExtractorInput::kScan
+                    ? node.subscribe("scan", 10, &LineExtractorNode::onScan, this)
+                    : node.subscribe("range_scan", 10, &LineExtractorNode::onRangeScan, this);
   diagnostics_timer_ = node.createWallTimer(
       ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { updater_.update(); });
 }
 
 void LineExtractorNode::onReconfigure(const LineExtractorConfig& settings) {
-  extractor_ = lines::LineExtractor(bridge::fromReconfigure(settings));
+  const auto config = bridge::fromReconfigure(settings);
+  extractor_ = lines::LineExtractor(config);
+  plain_extractor_ = lines::PlainExtractor(config);
 }
 
 void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   try {
     scan::Scan scan = reader_.read(*message);
     monitor_.accept();
+    correct(scan);
     extract(scan);
   } catch (const scan::InvalidScan& fault) {
     monitor_.drop(fault.what());
   }
 }
 
-void LineExtractorNode::extract(scan::Scan& scan) {
+void LineExtractorNode::onRangeScan(const RangeScanConstPtr& message) {
+  try {
+    triangulation::RangeScan range_scan = range_reader_.read(*message);
+    monitor_.accept();
+    correct(range_scan);
+    extract(range_scan.scan);
+  } catch (const scan::InvalidScan& fault) {
+    monitor_.drop(fault.what());
+  }
+}
+
+template <class AnyScan>
+void LineExtractorNode::correct(AnyScan& scan) {
   if (sweep_) ++(sweep_->addMotion(scan) ? corrected_ : uncorrected_);
-  const auto& segments = extractor_.extract(scan);
+}
+
+void LineExtractorNode::extract(const scan::Scan& scan) {
+  const auto& segments = config_.method == LineMethod::kFull ? extractor_.extract(scan)
+                                                             : plain_extractor_.extract(scan);
   const auto message =
       boost::make_shared<LineSegmentArray>(bridge::toMessage(segments, extractor_.arcs(), scan));
   lines_publisher_.publish(message);

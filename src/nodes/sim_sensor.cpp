@@ -39,15 +39,26 @@ class SimSensorNode {
     ros::Publisher publisher;
   };
 
+  struct ActiveSensor {
+    SimActiveSensorConfig config;
+    std::unique_ptr<bridge::ActiveSensorTopics> topics;
+  };
+
   Simulation build() const;
   void addScanners(const config::Node& parameters);
+  void claimTopic(const std::string& topic, const config::Node& parameter);
   void addScanner(const SimScannerConfig& config);
-  void broadcastMounting(const SimScannerConfig& config);
+  void addActiveSensors(const config::Node& parameters);
+  void addActiveSensor(const SimActiveSensorConfig& config);
+  void broadcastStatic(const std::string& parent, const std::string& child,
+                       const Eigen::Isometry3d& T_parent_child);
   void startDriving();
   void onCommand(const geometry_msgs::Twist& command);
   void onTimer();
   void step();
   void publish(simulation::FinishedSweep& sweep);
+  void publishRangeScans();
+  void publishHead(std::size_t sensor);
   void publishState();
   bridge::UncertainTwist2 odometryTwist() const;
   void publishOdometry();
@@ -64,6 +75,8 @@ class SimSensorNode {
   tf2_ros::TransformBroadcaster broadcaster_;
   tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   std::vector<Scanner> scanners_;
+  std::vector<ActiveSensor> active_sensors_;
+  std::set<std::string> scan_topics_;
   std::int64_t odometry_messages_ = 0;
   motion::StampedPose2 last_odometry_;  // stamp in time of the run
 
@@ -94,7 +107,9 @@ SimSensorNode::SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       clock_(config_.clock ? bridge::RunClock(node, config_.speed_factor) : bridge::RunClock()),
       updater_(node, private_node) {
   updater_.setHardwareID("none");
-  addScanners(bridge::parametersBelow(private_node));
+  const config::Node parameters = bridge::parametersBelow(private_node);
+  addScanners(parameters);
+  addActiveSensors(parameters);
   odometry_publisher_ = node_.advertise<nav_msgs::Odometry>("odom", 50);
   truth_publisher_ = node_.advertise<nav_msgs::Odometry>("ground_truth", 50);
   if (config_.walks) {
@@ -115,15 +130,21 @@ Simulation SimSensorNode::build() const {
 }
 
 void SimSensorNode::addScanners(const config::Node& parameters) {
-  if (!parameters.has("scanners")) return addScanner({});
-  std::set<std::string> topics;
+  if (!parameters.has("scanners")) {
+    if (!parameters.has("active_sensors")) addScanner({});
+    return;
+  }
   for (const auto& [name, parameter] : parameters.at("scanners").entries()) {
     SimScannerConfig config;
     config::read(parameter, config);
-    if (!topics.insert(config.topic).second) {
-      parameter.fail("another scanner has the topic '" + config.topic + "' already");
-    }
+    claimTopic(config.topic, parameter);
     addScanner(config);
+  }
+}
+
+void SimSensorNode::claimTopic(const std::string& topic, const config::Node& parameter) {
+  if (!scan_topics_.insert(topic).second) {
+    parameter.fail("another scanner has the topic '" + topic + "' already");
   }
 }
 
@@ -133,19 +154,51 @@ void SimSensorNode::addScanner(const SimScannerConfig& config) {
                            : simulation::ScannerProfile::readFile(config.profile);
   simulation_.addScanner(profile, config.mounting);
   scanners_.push_back({config, node_.advertise<sensor_msgs::LaserScan>(config.topic, 50)});
-  broadcastMounting(config);
+  broadcastStatic(config_.base_frame, config.frame, config.mounting.T_base_sensor());
 }
 
-void SimSensorNode::broadcastMounting(const SimScannerConfig& config) {
-  const Eigen::Isometry3d T_base_sensor = config.mounting.T_base_sensor();
-  const Eigen::Quaterniond rotation(T_base_sensor.linear());
+void SimSensorNode::addActiveSensors(const config::Node& parameters) {
+  if (!parameters.has("active_sensors")) return;
+  for (const auto& [name, parameter] : parameters.at("active_sensors").entries()) {
+    SimActiveSensorConfig config;
+    config::read(parameter, config);
+    claimTopic(config.names.scan, parameter);
+    claimTopic(config.names.range_scan, parameter);
+    addActiveSensor(config);
+  }
+}
+
+void SimSensorNode::addActiveSensor(const SimActiveSensorConfig& config) {
+  const auto profile = config.profile.empty()
+                           ? simulation::ActiveSensorProfile{}
+                           : simulation::ActiveSensorProfile::readFile(config.profile);
+  const std::size_t index = active_sensors_.size();
+  simulation_.addActiveSensor(profile, config.mounting);
+  auto topics = std::make_unique<bridge::ActiveSensorTopics>(
+      node_, config.names, profile.head, updater_,
+      [this, index](const triangulation::HeadCommand& command) {
+        simulation_.commandHead(index, command);
+      });
+  active_sensors_.push_back({config, std::move(topics)});
+  const bridge::ActiveSensorNames& names = config.names;
+  broadcastStatic(config_.base_frame, names.mount_frame, config.mounting.T_base_sensor());
+  const Eigen::Vector2d origin = profile.sensor.origin.position();
+  if (config.publish_tf) {
+    broadcastStatic(names.head_frame, names.frame,
+                    Eigen::Isometry3d(Eigen::Translation3d(origin.x(), origin.y(), 0.0)));
+  }
+}
+
+void SimSensorNode::broadcastStatic(const std::string& parent, const std::string& child,
+                                    const Eigen::Isometry3d& T_parent_child) {
+  const Eigen::Quaterniond rotation(T_parent_child.linear());
   geometry_msgs::TransformStamped message;
   message.header.stamp = ros::Time::now();
-  message.header.frame_id = config_.base_frame;
-  message.child_frame_id = config.frame;
-  message.transform.translation.x = T_base_sensor.translation().x();
-  message.transform.translation.y = T_base_sensor.translation().y();
-  message.transform.translation.z = T_base_sensor.translation().z();
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform.translation.x = T_parent_child.translation().x();
+  message.transform.translation.y = T_parent_child.translation().y();
+  message.transform.translation.z = T_parent_child.translation().z();
   message.transform.rotation.x = rotation.x();
   message.transform.rotation.y = rotation.y();
   message.transform.rotation.z = rotation.z();
@@ -186,6 +239,7 @@ void SimSensorNode::step() {
   clock_.publish(simulation_.time());
   if (config_.walks) publishImu();
   for (auto& sweep : sweeps) publish(sweep);
+  publishRangeScans();
   const double due = 1e9 * static_cast<double>(odometry_messages_) / config_.odometry_rate;
   if (static_cast<double>(simulation_.time()) >= due) publishState();
 }
@@ -195,6 +249,29 @@ void SimSensorNode::publish(simulation::FinishedSweep& sweep) {
   sweep.scan.stamp = clock_.stampOf(sweep.scan.stamp);
   sweep.scan.frame = scanner.config.frame;
   scanner.publisher.publish(bridge::toMessage(sweep.scan));
+}
+
+// After the head's position, so that tf reaches the end of the scan.
+void SimSensorNode::publishRangeScans() {
+  for (std::size_t i = 0; i < active_sensors_.size(); ++i) publishHead(i);
+  for (simulation::FinishedRangeScan finished : simulation_.rangeScans()) {
+    finished.range_scan.scan.stamp = clock_.stampOf(finished.range_scan.scan.stamp);
+    active_sensors_[finished.sensor].topics->publish(finished.range_scan);
+  }
+}
+
+void SimSensorNode::publishHead(std::size_t sensor) {
+  const simulation::SensorHead& head = simulation_.head(sensor);
+  const bridge::ActiveSensorTopics& topics = *active_sensors_[sensor].topics;
+  const std::int64_t stamp = clock_.stampOf(simulation_.time());
+  topics.publishJoint(stamp, head.reportedAngle(), head.rate());
+  if (!active_sensors_[sensor].config.publish_tf) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = bridge::timeOf(stamp);
+  transform.header.frame_id = topics.names().mount_frame;
+  transform.child_frame_id = topics.names().head_frame;
+  transform.transform = bridge::toTransform({0.0, 0.0, head.reportedAngle()});
+  broadcaster_.sendTransform(transform);
 }
 
 void SimSensorNode::publishState() {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sightline/bridge/active_sensor_topics.h"
 #include "sightline/config/fields.h"
 #include "sightline/simulation/gait.h"
 #include "sightline/simulation/robot.h"
@@ -21,6 +22,24 @@ struct SimScannerConfig {
     visitor.text("profile", profile, "path of the scanner's profile; empty: Hokuyo UTM-30LX");
     visitor.text("topic", topic, "where the scans go");
     visitor.text("frame", frame, "frame of the scans");
+    mounting.visit(visitor);
+  }
+};
+
+/// Parameters of one active sensor of the node sim_sensor, below ~active_sensors/NAME.
+struct SimActiveSensorConfig {
+  std::string profile;  ///< path; empty: the sensor of pears
+  bool publish_tf = true;
+  bridge::ActiveSensorNames names;
+  simulation::Mounting mounting;
+
+  void visit(config::FieldVisitor& visitor) {
+    visitor.text("profile", profile,
+                 "path of the sensor's profile; empty: as config/sensors/synchronised_scan.yaml");
+    visitor.flag("publish_tf", publish_tf,
+                 "broadcast mount_frame to head_frame and head_frame to frame; off where "
+                 "robot_state_publisher does");
+    names.visit(visitor);
     mounting.visit(visitor);
   }
 };

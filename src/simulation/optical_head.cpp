@@ -1,10 +1,13 @@
 #include "sightline/simulation/optical_head.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sightline::simulation {
 
 namespace {
+
+constexpr double kTolerance = 1e-6;  // m
 
 const Optics& validatedOptics(const Optics& optics) {
   config::validate(optics);
@@ -18,6 +21,17 @@ bool onSameSide(const geometry::Segment& wall, const Eigen::Vector2d& a, const E
     return along.x() * (p.y() - wall.start.y()) - along.y() * (p.x() - wall.start.x());
   };
   return side(a) * side(b) > 0.0;
+}
+
+Eigen::Vector3d inPlane(const Eigen::Vector2d& point) {
+  return {point.x(), point.y(), 0.0};
+}
+
+// In plan view [m].
+double offsetFrom(const world::Ray& axis, const Eigen::Vector3d& point) {
+  const Eigen::Vector2d along = axis.direction.head<2>().normalized();
+  const Eigen::Vector2d way = (point - axis.origin).head<2>();
+  return std::abs(along.x() * way.y() - along.y() * way.x());
 }
 
 }  // namespace
@@ -49,45 +63,62 @@ std::vector<OpticalHead::BeamRay> OpticalHead::raysOf(const Optics& optics) {
   return rays;
 }
 
-double OpticalHead::gatheredShare(const world::World& world, const world::Hit& hit,
-                                  const Eigen::Vector3d& source_map,
-                                  const Eigen::Vector3d& spot_map,
-                                  const Eigen::Vector3d& lens_map) const {
-  constexpr double kTolerance = 1e-6;  // m
-  if (hit.segment && !onSameSide(world.segments()[*hit.segment].segment, source_map.head<2>(),
-                                 lens_map.head<2>())) {
+std::vector<OpticalHead::Spot> OpticalHead::illuminate(const world::World& world,
+                                                       const Eigen::Isometry3d& T_map_projection,
+                                                       double angle) const {
+  const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const Eigen::Vector3d along_map = T_map_projection.linear() * inPlane(along);
+  const Eigen::Vector3d across_map = T_map_projection.linear() * inPlane(across);
+  const Eigen::Vector3d origin_map = T_map_projection.translation();
+  const auto shortlist =
+      world.shortlist({origin_map, along_map}, std::abs(rays_.front().offset) + kTolerance);
+  std::vector<Spot> spots;
+  spots.reserve(rays_.size());
+  for (const BeamRay& ray : rays_) {
+    const Eigen::Vector3d source_map = origin_map + ray.offset * across_map;
+    const auto hit = world.cast({source_map, along_map}, shortlist);
+    if (!hit) continue;
+    const Eigen::Vector2d point = ray.offset * across + hit->range * along;
+    const double p = geometry_.imagePosition(point, angle);
+    if (std::abs(p) > 0.5 * geometry_.intrinsics().detector_length) continue;
+    spots.push_back(
+        {*hit, source_map, source_map + hit->range * along_map, full_current_ * ray.share, p});
+  }
+  return spots;
+}
+
+double OpticalHead::gatheredCurrent(const world::World& world, const Spot& spot,
+                                    const Eigen::Vector3d& lens_map,
+                                    const world::World::Shortlist& between) {
+  if (spot.hit.segment && !onSameSide(world.segments()[*spot.hit.segment].segment,
+                                      spot.source_map.head<2>(), lens_map.head<2>())) {
     return 0.0;
   }
-  const Eigen::Vector3d way = spot_map - lens_map;
+  const Eigen::Vector3d way = spot.point_map - lens_map;
   const double distance = way.norm();
-  const auto seen = world.cast({lens_map, way / distance});
+  const auto seen = world.cast({lens_map, way / distance}, between);
   if (!seen || std::abs(seen->range - distance) > kTolerance) return 0.0;
-  return world.materials()[hit.material].reflectivity * seen->cos_incidence / (distance * distance);
+  return spot.full_current * world.materials()[spot.hit.material].reflectivity *
+         seen->cos_incidence / (distance * distance);
 }
 
 SpotImage OpticalHead::look(const world::World& world, const Eigen::Isometry3d& T_map_projection,
                             double angle) const {
-  const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
-  const Eigen::Vector2d across(-along.y(), along.x());
-  const auto inMap = [&](const Eigen::Vector2d& p) -> Eigen::Vector3d {
-    return T_map_projection * Eigen::Vector3d(p.x(), p.y(), 0.0);
-  };
-  const Eigen::Vector3d along_map =
-      T_map_projection.linear() * Eigen::Vector3d(along.x(), along.y(), 0.0);
-  const Eigen::Vector3d lens_map = inMap(geometry_.lensCentre(angle));
   SpotImage image;
-  for (const BeamRay& ray : rays_) {
-    const Eigen::Vector2d source = ray.offset * across;
-    const Eigen::Vector3d source_map = inMap(source);
-    const auto hit = world.cast({source_map, along_map});
-    if (!hit) continue;
-    const double p = geometry_.imagePosition(Eigen::Vector2d(source + hit->range * along), angle);
-    if (std::abs(p) > 0.5 * geometry_.intrinsics().detector_length) continue;
-    const Eigen::Vector3d spot_map = source_map + hit->range * along_map;
-    const double current =
-        full_current_ * ray.share * gatheredShare(world, *hit, source_map, spot_map, lens_map);
+  const auto spots = illuminate(world, T_map_projection, angle);
+  if (spots.empty()) return image;
+  const Eigen::Vector3d lens_map = T_map_projection * inPlane(geometry_.lensCentre(angle));
+  const world::Ray axis{lens_map, (spots.front().point_map - lens_map).normalized()};
+  double half_width = kTolerance;
+  for (const Spot& spot : spots) {
+    half_width = std::max(half_width, kTolerance + offsetFrom(axis, spot.point_map));
+  }
+  const auto between = world.shortlist(axis, half_width);
+  for (const Spot& spot : spots) {
+    const double current = gatheredCurrent(world, spot, lens_map, between);
     image.current += current;
-    image.image_position += current * p;
+    image.image_position += current * spot.image_position;
   }
   if (image.current > 0.0) image.image_position /= image.current;
   return image;

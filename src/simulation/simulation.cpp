@@ -18,6 +18,13 @@ void Simulation::addScanner(const ScannerProfile& profile, const Mounting& mount
   scanners_.push_back({Scanner(profile, mounting, seed)});
 }
 
+void Simulation::addActiveSensor(const ActiveSensorProfile& profile, const Mounting& mounting) {
+  const std::uint64_t seed = seed_ + (static_cast<std::uint64_t>(active_sensors_.size() + 1) << 48);
+  active_sensors_.push_back({ActiveSensor(profile, seed),
+                             triangulation::Ranger(profile.calibrated()),
+                             mounting.T_base_sensor()});
+}
+
 void Simulation::walk(const GaitConfig& gait) {
   config::validate(gait);
   gait_config_ = gait;
@@ -33,6 +40,10 @@ void Simulation::follow(const Path& path) {
 void Simulation::command(const Velocity& velocity) {
   command_ = velocity;
   commanded_at_ = time_;
+}
+
+void Simulation::commandHead(std::size_t sensor, const triangulation::HeadCommand& command) {
+  active_sensors_[sensor].sensor.command(command);
 }
 
 Velocity Simulation::wanted() {
@@ -68,13 +79,29 @@ void Simulation::walkOn() {
   if (body_motions_.size() > kRemembered) body_motions_.pop_front();
 }
 
+Eigen::Isometry3d Simulation::carrierInSpace(std::int64_t time) const {
+  const Eigen::Isometry3d T_map_base = inSpace(this->T_map_base(time));
+  return gait_ ? T_map_base * bodyMotion(time).outOfPlane(gait_config_.height) : T_map_base;
+}
+
 scan::Scan Simulation::sweep(Mounted& mounted) const {
   const std::int64_t stamp = mounted.nextStamp();
   ++mounted.sweeps;
-  return mounted.scanner.sweepInSpace(world_, stamp, [this](std::int64_t time) {
-    const Eigen::Isometry3d T_map_base = inSpace(this->T_map_base(time));
-    return gait_ ? T_map_base * bodyMotion(time).outOfPlane(gait_config_.height) : T_map_base;
-  });
+  return mounted.scanner.sweepInSpace(world_, stamp,
+                                      [this](std::int64_t time) { return carrierInSpace(time); });
+}
+
+void Simulation::advanceActiveSensors() {
+  range_scans_.clear();
+  for (std::size_t i = 0; i < active_sensors_.size(); ++i) {
+    MountedActiveSensor& mounted = active_sensors_[i];
+    const auto T_map_mount = [&](std::int64_t time) {
+      return carrierInSpace(time) * mounted.T_base_mount;
+    };
+    for (const auto& raw : mounted.sensor.advance(world_, time_, T_map_mount)) {
+      range_scans_.push_back({i, mounted.ranger.range(raw)});
+    }
+  }
 }
 
 std::vector<FinishedSweep> Simulation::step() {
@@ -82,6 +109,7 @@ std::vector<FinishedSweep> Simulation::step() {
   time_ += kStep;
   way_.add(time_, robot_.T_map_base());
   if (gait_) walkOn();
+  advanceActiveSensors();
   std::vector<FinishedSweep> finished;
   for (std::size_t i = 0; i < scanners_.size(); ++i) {
     Mounted& mounted = scanners_[i];

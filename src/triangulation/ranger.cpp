@@ -8,16 +8,22 @@
 namespace sightline::triangulation {
 
 std::vector<geometry::Pose2> headMotion(const std::vector<double>& head_angles,
-                                        const Eigen::Vector2d& origin) {
+                                        const Eigen::Vector2d& origin,
+                                        const std::vector<geometry::Pose2>& mount_motion) {
   const auto turned = [&](double angle) { return angle != head_angles.front(); };
-  if (std::none_of(head_angles.begin(), head_angles.end(), turned)) return {};
+  if (mount_motion.empty() && std::none_of(head_angles.begin(), head_angles.end(), turned)) {
+    return {};
+  }
   const geometry::Pose2 T_head_projection(origin, 0.0);
-  const geometry::Pose2 T_projection_head = T_head_projection.inverse();
+  const auto T_mount_projection = [&](std::size_t beam) {
+    return geometry::Pose2(0.0, 0.0, head_angles[beam]) * T_head_projection;
+  };
+  const geometry::Pose2 T_first_mount = T_mount_projection(0).inverse();
   std::vector<geometry::Pose2> motion;
   motion.reserve(head_angles.size());
-  for (const double angle : head_angles) {
-    const geometry::Pose2 T_first_now(0.0, 0.0, angle - head_angles.front());
-    motion.push_back(T_projection_head * T_first_now * T_head_projection);
+  for (std::size_t beam = 0; beam < head_angles.size(); ++beam) {
+    const geometry::Pose2 moved = mount_motion.empty() ? geometry::Pose2() : mount_motion[beam];
+    motion.push_back(T_first_mount * moved * T_mount_projection(beam));
   }
   return motion;
 }

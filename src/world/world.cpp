@@ -76,32 +76,74 @@ void World::add(const WorldSegment& segment) {
   segments_.push_back(segment);
 }
 
+// The nearest one of the segments that are tried.
+class World::NearestSegment {
+ public:
+  NearestSegment(const World& world, const Ray& ray)
+      : world_(world),
+        ray_(ray),
+        origin_(homogeneous(ray.origin.head<2>())),
+        infinity_(ray.direction.x(), ray.direction.y(), 0.0),
+        line_(origin_.cross(infinity_)) {}
+
+  void tryOne(std::size_t i) {
+    const Side& side = world_.sides_[i];
+    if (line_.dot(side.start) * line_.dot(side.end) > 0.0) return;
+    const double candidate = -side.line.dot(origin_) / side.line.dot(infinity_);
+    if (!(candidate > 0.0 && candidate < range_)) return;
+    const double height = ray_.origin.z() + candidate * ray_.direction.z();
+    if (height < world_.segments_[i].bottom || height > world_.segments_[i].top) return;
+    range_ = candidate;
+    hit_ = i;
+  }
+  std::optional<Hit> hit() const {
+    if (!hit_) return std::nullopt;
+    const double cosine = std::abs(world_.sides_[*hit_].line.dot(infinity_));
+    return Hit{range_, world_.segments_[*hit_].material, cosine, hit_};
+  }
+
+ private:
+  const World& world_;
+  const Ray& ray_;
+  Eigen::Vector3d origin_, infinity_, line_;
+  double range_ = std::numeric_limits<double>::infinity();
+  std::optional<std::size_t> hit_;
+};
+
 std::optional<Hit> World::cast(const Ray& ray) const {
-  std::optional<Hit> nearest;
-  castSegments(ray, nearest);
-  castDiscs(ray, nearest);
-  if (ray.direction.z() != 0.0) castPlates(ray, nearest);
+  NearestSegment segment(*this, ray);
+  for (std::size_t i = 0; i < sides_.size(); ++i) segment.tryOne(i);
+  auto nearest = segment.hit();
+  castOthers(ray, nearest);
   return nearest;
 }
 
-void World::castSegments(const Ray& ray, std::optional<Hit>& nearest) const {
-  const Eigen::Vector3d origin = homogeneous(ray.origin.head<2>());
-  const Eigen::Vector3d infinity(ray.direction.x(), ray.direction.y(), 0.0);
-  const Eigen::Vector3d line = origin.cross(infinity);
-  double range = std::numeric_limits<double>::infinity();
-  std::size_t hit = sides_.size();
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const Side& side = sides_[i];
-    if (line.dot(side.start) * line.dot(side.end) > 0.0) continue;
-    const double candidate = -side.line.dot(origin) / side.line.dot(infinity);
-    if (!(candidate > 0.0 && candidate < range)) continue;
-    const double height = ray.origin.z() + candidate * ray.direction.z();
-    if (height < segments_[i].bottom || height > segments_[i].top) continue;
-    range = candidate;
-    hit = i;
+std::optional<Hit> World::cast(const Ray& ray, const Shortlist& shortlist) const {
+  NearestSegment segment(*this, ray);
+  for (const std::size_t i : shortlist.segments) segment.tryOne(i);
+  auto nearest = segment.hit();
+  castOthers(ray, nearest);
+  return nearest;
+}
+
+World::Shortlist World::shortlist(const Ray& axis, double half_width) const {
+  const Eigen::Vector2d along = axis.direction.head<2>().normalized();
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const Eigen::Vector2d origin = axis.origin.head<2>();
+  Shortlist result;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const Eigen::Vector2d start = segments_[i].segment.start - origin;
+    const Eigen::Vector2d end = segments_[i].segment.end - origin;
+    const auto [right, left] = std::minmax({across.dot(start), across.dot(end)});
+    const bool is_ahead = along.dot(start) > 0.0 || along.dot(end) > 0.0;
+    if (is_ahead && right <= half_width && left >= -half_width) result.segments.push_back(i);
   }
-  if (hit == sides_.size()) return;
-  nearest = Hit{range, segments_[hit].material, std::abs(sides_[hit].line.dot(infinity)), hit};
+  return result;
+}
+
+void World::castOthers(const Ray& ray, std::optional<Hit>& nearest) const {
+  castDiscs(ray, nearest);
+  if (ray.direction.z() != 0.0) castPlates(ray, nearest);
 }
 
 void World::castDiscs(const Ray& ray, std::optional<Hit>& nearest) const {

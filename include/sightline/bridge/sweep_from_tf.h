@@ -6,6 +6,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include "sightline/scan/scan.h"
+#include "sightline/triangulation/ranger.h"
 
 namespace sightline::bridge {
 
@@ -20,6 +21,9 @@ class SweepFromTf {
 
   /// Fills in `sensor_motion`. False, and a scan left as it was, where tf cannot tell.
   bool addMotion(scan::Scan& scan) const;
+  /// As above, of a sensor whose head turns on something that moves: how the head turned is known
+  /// from the scan, which may have accelerated.
+  bool addMotion(triangulation::RangeScan& range_scan) const;
 
  private:
   std::string fixed_frame_;

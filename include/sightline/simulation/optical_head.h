@@ -52,10 +52,19 @@ class OpticalHead {
     double share;   // of the laser's power
   };
   static std::vector<BeamRay> raysOf(const Optics& optics);
-  // Of the light of one ray, what a lens of unit area at the spot's distance gathers [1/m²].
-  double gatheredShare(const world::World& world, const world::Hit& hit,
-                       const Eigen::Vector3d& source_map, const Eigen::Vector3d& spot_map,
-                       const Eigen::Vector3d& lens_map) const;
+  // Where a ray of the beam ended.
+  struct Spot {
+    world::Hit hit;
+    Eigen::Vector3d source_map;  // where the ray left
+    Eigen::Vector3d point_map;
+    double full_current;  // if the surface is white and faces the lens, times squared range [A m²]
+    double image_position;  // [m]
+  };
+  std::vector<Spot> illuminate(const world::World& world, const Eigen::Isometry3d& T_map_projection,
+                               double angle) const;
+  static double gatheredCurrent(const world::World& world, const Spot& spot,
+                                const Eigen::Vector3d& lens_map,
+                                const world::World::Shortlist& between);
 
   triangulation::ProjectionGeometry geometry_;
   std::vector<BeamRay> rays_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sightline/motion/pose_history.h"
+#include "sightline/simulation/active_sensor.h"
 #include "sightline/simulation/gait.h"
 #include "sightline/simulation/path.h"
 #include "sightline/simulation/robot.h"
@@ -19,6 +20,12 @@ namespace sightline::simulation {
 struct FinishedSweep {
   std::size_t scanner = 0;  ///< in the order in which they were added
   scan::Scan scan;
+};
+
+/// A scan of an active sensor that has just ended.
+struct FinishedRangeScan {
+  std::size_t sensor = 0;  ///< in the order in which they were added
+  triangulation::RangeScan range_scan;
 };
 
 /// A robot with its scanners in a world, in steps of a fixed length. Time is in nanoseconds from
@@ -34,6 +41,8 @@ class Simulation {
 
   /// Sweeps begin at time 0. Throws config::Error.
   void addScanner(const ScannerProfile& profile, const Mounting& mounting);
+  /// Samples begin at time 0, its head standing straight ahead. Throws config::Error.
+  void addActiveSensor(const ActiveSensorProfile& profile, const Mounting& mounting);
   /// From now on a person carries the scanners: what the robot does is where that person goes, and
   /// the gait comes on top. Throws config::Error if the configuration is out of range.
   void walk(const GaitConfig& gait);
@@ -41,12 +50,19 @@ class Simulation {
   void follow(const Path& path);
   /// What the robot shall do until the next command, or until the time-out.
   void command(const Velocity& velocity);
+  /// What the head of an active sensor shall do; one that its limits do not allow is not heard.
+  void commandHead(std::size_t sensor, const triangulation::HeadCommand& command);
 
   /// Moves on by kStep; the sweeps that ended within it, by scanner and time.
   std::vector<FinishedSweep> step();
 
+  /// Those of active sensors that ended within the last step.
+  const std::vector<FinishedRangeScan>& rangeScans() const { return range_scans_; }
+
   std::int64_t time() const { return time_; }
   const Robot& robot() const { return robot_; }
+  /// As it was at the last sample, less than a sample ago.
+  const SensorHead& head(std::size_t sensor) const { return active_sensors_[sensor].sensor.head(); }
   /// Where the scanners' carrier is in the plane, gait and all; [0, time()] but no more than the
   /// last ten seconds.
   geometry::Pose2 T_map_base(std::int64_t time) const;
@@ -59,15 +75,24 @@ class Simulation {
     std::int64_t sweeps = 0;  ///< so far
     std::int64_t nextStamp() const;
   };
+  struct MountedActiveSensor {
+    ActiveSensor sensor;
+    triangulation::Ranger ranger;
+    Eigen::Isometry3d T_base_mount;
+  };
   Velocity wanted();
   void walkOn();
+  Eigen::Isometry3d carrierInSpace(std::int64_t time) const;
   scan::Scan sweep(Mounted& mounted) const;
+  void advanceActiveSensors();
 
   world::World world_;
   RobotConfig config_;
   std::uint64_t seed_;
   Robot robot_;
   std::vector<Mounted> scanners_;
+  std::vector<MountedActiveSensor> active_sensors_;
+  std::vector<FinishedRangeScan> range_scans_;
   std::optional<PathFollower> follower_;
   std::int64_t departure_ = 0;  // of the follower
   Velocity command_;

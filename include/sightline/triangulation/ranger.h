@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,15 +25,20 @@ struct RangeScan {
   /// In the projection frame at the first beam; intensities are the total currents [A], and
   /// sensor_motion is empty where the head stood still.
   scan::Scan scan;
-  std::vector<double> head_angles;                   ///< [rad], one a beam
+  std::vector<double> head_angles;  ///< [rad], one a beam
+  std::string mount_frame;          ///< in which the head turns, its axes there at an angle of 0
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< of the projection frame in the head's [m]
 };
 
 /// Pose of the projection frame at each beam, in that of the first one, while the head turns about
-/// its axis; `origin` is that of the projection frame in the head's frame [m]. Empty where it stood
-/// still (pears eqs 15-20 are what this does to a line).
+/// its axis (pears eqs 15-20 are what this does to a line). Empty where nothing moved.
+///
+/// @param origin         of the projection frame in the head's frame [m]
+/// @param mount_motion   pose at each beam of what the head turns on, in its own frame at the first
+///                       beam; empty where that stood still
 std::vector<geometry::Pose2> headMotion(const std::vector<double>& head_angles,
-                                        const Eigen::Vector2d& origin);
+                                        const Eigen::Vector2d& origin,
+                                        const std::vector<geometry::Pose2>& mount_motion = {});
 
 /// One measurement.
 struct RangeReading {

@@ -104,6 +104,16 @@ class World {
   /// the segments whose ends lie on either side of it.
   std::optional<Hit> cast(const Ray& ray) const;
 
+  /// The surfaces that rays beside an axis can meet: the same as without it, sooner, for any number
+  /// of them.
+  struct Shortlist {
+    std::vector<std::size_t> segments;
+  };
+  /// For rays that stay, ahead of the origin of the axis and in plan view, within `half_width` [m]
+  /// of it. The axis must not be upright.
+  Shortlist shortlist(const Ray& axis, double half_width) const;
+  std::optional<Hit> cast(const Ray& ray, const Shortlist& shortlist) const;
+
  private:
   // A segment's line (unit normal, offset): the cross product of its homogeneous ends.
   struct Side {
@@ -111,7 +121,9 @@ class World {
     Eigen::Vector3d start;
     Eigen::Vector3d end;
   };
-  void castSegments(const Ray& ray, std::optional<Hit>& nearest) const;
+  // Of any order and number of segments.
+  class NearestSegment;
+  void castOthers(const Ray& ray, std::optional<Hit>& nearest) const;
   void castDiscs(const Ray& ray, std::optional<Hit>& nearest) const;
   void castPlates(const Ray& ray, std::optional<Hit>& nearest) const;
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <sensor_msgs/LaserScan.h>
+
+#include <sightline/RangeScan.h>
+#include "sightline/bridge/scan_conversion.h"
+#include "sightline/triangulation/ranger.h"
+
+namespace sightline::bridge {
+
+RangeScan toMessage(const triangulation::RangeScan& range_scan);
+
+/// What a consumer that knows no other message gets of it: intensities are the currents in nA. The
+/// frame is that of the first beam, and no beam tells how the head went on turning: who needs that
+/// takes it from tf, beam by beam with time_increment.
+sensor_msgs::LaserScan toLaserScan(const RangeScan& message);
+
+/// Range scans from messages.
+class RangeScanReader {
+ public:
+  /// Throws scan::InvalidScan with the reason: whatever ScanReader finds, a number of variances,
+  /// currents or head angles that is not that of the ranges, a variance of a valid range that is
+  /// not positive and finite, an origin or a head angle that is not finite.
+  triangulation::RangeScan read(const RangeScan& message);
+
+ private:
+  ScanReader reader_;
+};
+
+}  // namespace sightline::bridge

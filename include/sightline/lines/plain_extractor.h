@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "sightline/geometry/line_segment.h"
+#include "sightline/lines/line_extractor_config.h"
+#include "sightline/scan/scan.h"
+
+namespace sightline::lines {
+
+/// The line extractor of pears section 4 alone: one pass of the extended Kalman filter along the
+/// beams, in the projection frame of each beam in turn, with a batch start wherever an observation
+/// is not validated. It has the fragmentation that the paper shows in figure 5; LineExtractor has
+/// not. For comparison.
+class PlainExtractor {
+ public:
+  /// Points of the batch start (k of section 4.6).
+  static constexpr std::size_t kStart = 5;
+
+  /// Of the settings, gate and min_beams count. Throws config::Error.
+  explicit PlainExtractor(const LineExtractorConfig& config = {});
+
+  /// Segments in the scan's frame at its stamp, in the order of their first beams; kinds of ends
+  /// are not found. Valid until the next call.
+  const std::vector<geometry::LineSegment>& extract(const scan::Scan& scan);
+
+ private:
+  // A line in the frame of the sensor at the beam `last`.
+  struct Track {
+    geometry::PolarLine line;
+    std::size_t first = 0;
+    std::size_t last = 0;
+    std::size_t beams = 0;
+    double chi_square = 0.0;
+  };
+  bool start(const scan::Scan& scan, const std::vector<std::size_t>& beams, Track& track) const;
+  bool update(const scan::Scan& scan, std::size_t beam, Track& track) const;
+  void report(const scan::Scan& scan, const Track& track);
+
+  LineExtractorConfig config_;
+  std::vector<geometry::LineSegment> segments_;
+};
+
+}  // namespace sightline::lines

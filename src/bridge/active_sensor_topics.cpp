@@ -1,0 +1,64 @@
+#include "sightline/bridge/active_sensor_topics.h"
+
+#include <utility>
+
+#include <sensor_msgs/JointState.h>
+
+#include "sightline/bridge/head_command_conversion.h"
+#include "sightline/bridge/range_scan_conversion.h"
+#include "sightline/bridge/time.h"
+
+namespace sightline::bridge {
+
+void ActiveSensorNames::visit(config::FieldVisitor& visitor) {
+  visitor.text("range_scan", range_scan, "topic of the scans with variances and head angles");
+  visitor.text("scan", scan, "topic of the same scans as sensor_msgs/LaserScan");
+  visitor.text("joint_states", joint_states, "topic of the head's position");
+  visitor.text("head_command", head_command, "topic of what the head shall do");
+  visitor.text("joint", joint, "name of the head's joint");
+  visitor.text("mount_frame", mount_frame, "frame in which the head turns about the z axis");
+  visitor.text("head_frame", head_frame, "frame that turns with the head, about its own origin");
+  visitor.text("frame", frame, "projection frame: that of the scans, parallel to the head's");
+}
+
+ActiveSensorTopics::ActiveSensorTopics(ros::NodeHandle node, const ActiveSensorNames& names,
+                                       const triangulation::HeadLimits& limits,
+                                       diagnostic_updater::Updater& updater,
+                                       OnHeadCommand on_command)
+    : names_(names),
+      limits_(limits),
+      monitor_(node.resolveName(names.head_command), updater),
+      on_command_(std::move(on_command)),
+      range_scan_publisher_(node.advertise<RangeScan>(names.range_scan, 10)),
+      scan_publisher_(node.advertise<sensor_msgs::LaserScan>(names.scan, 10)),
+      joint_publisher_(node.advertise<sensor_msgs::JointState>(names.joint_states, 100)),
+      command_subscriber_(
+          node.subscribe(names.head_command, 10, &ActiveSensorTopics::onHeadCommand, this)) {}
+
+void ActiveSensorTopics::publish(triangulation::RangeScan& range_scan) const {
+  range_scan.scan.frame = names_.frame;
+  range_scan.mount_frame = names_.mount_frame;
+  const RangeScan message = toMessage(range_scan);
+  range_scan_publisher_.publish(message);
+  scan_publisher_.publish(toLaserScan(message));
+}
+
+void ActiveSensorTopics::publishJoint(std::int64_t stamp, double position, double rate) const {
+  sensor_msgs::JointState message;
+  message.header.stamp = timeOf(stamp);
+  message.name = {names_.joint};
+  message.position = {position};
+  message.velocity = {rate};
+  joint_publisher_.publish(message);
+}
+
+void ActiveSensorTopics::onHeadCommand(const HeadCommand& message) {
+  try {
+    on_command_(fromMessage(message, names_.joint, limits_));
+    monitor_.accept();
+  } catch (const InvalidHeadCommand& fault) {
+    monitor_.drop(fault.what());
+  }
+}
+
+}  // namespace sightline::bridge

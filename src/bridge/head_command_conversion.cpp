@@ -1,0 +1,36 @@
+#include "sightline/bridge/head_command_conversion.h"
+
+#include <fmt/format.h>
+
+namespace sightline::bridge {
+
+namespace {
+
+triangulation::HeadCommand::Mode modeOf(const HeadCommand& message) {
+  using Mode = triangulation::HeadCommand::Mode;
+  switch (message.mode) {
+    case HeadCommand::STOP:
+      return Mode::kStop;
+    case HeadCommand::POSITION:
+      return Mode::kPosition;
+    case HeadCommand::RATE:
+      return Mode::kRate;
+    default:
+      throw InvalidHeadCommand(fmt::format("an unknown mode {}", message.mode));
+  }
+}
+
+}  // namespace
+
+triangulation::HeadCommand fromMessage(const HeadCommand& message, const std::string& joint,
+                                       const triangulation::HeadLimits& limits) {
+  if (!message.joint.empty() && message.joint != joint) {
+    throw InvalidHeadCommand(fmt::format("for the joint '{}', not '{}'", message.joint, joint));
+  }
+  const triangulation::HeadCommand command{modeOf(message), message.position, message.rate};
+  const std::string fault = limits.fault(command);
+  if (!fault.empty()) throw InvalidHeadCommand(fault);
+  return command;
+}
+
+}  // namespace sightline::bridge
