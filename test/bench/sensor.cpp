@@ -2,6 +2,7 @@
 // simulation.
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "bench/sensor/edge.h"
 #include "bench/sensor/table2.h"
@@ -44,12 +45,15 @@ void speed(const simulation::ActiveSensorProfile& profile) {
 }  // namespace
 }  // namespace sightline::bench
 
-int main() {
+int main(int, char** argv) {
   using namespace sightline;
   const auto profile = simulation::ActiveSensorProfile::readFile(
       SIGHTLINE_SOURCE_DIR "/config/sensors/synchronised_scan.yaml");
   bench::table2(profile);
   bench::edges(profile);
+  bench::drawSegmentsAgainstGate(
+      profile,
+      std::filesystem::path(argv[0]).replace_filename("segments_against_gate.png").string());
   bench::speed(profile);
   return 0;
 }

@@ -5,6 +5,7 @@
 #include "bench/figures.h"
 #include "sightline/lines/line_extractor.h"
 #include "sightline/lines/plain_extractor.h"
+#include "sightline/plot/figure.h"
 #include "sightline/simulation/active_sensor.h"
 
 namespace sightline::bench {
@@ -57,6 +58,31 @@ inline void edges(const simulation::ActiveSensorProfile& profile) {
   print("sensor.figure5.two_segments", countSegments(scans, 0.0, full).two, "of_100");
   print("sensor.figure4.plain_segments", countSegments(scans, 0.5, plain).mean, "segments");
   print("sensor.figure5.plain_segments", countSegments(scans, 0.0, plain).mean, "segments");
+}
+
+/// Draws the mean number of segments against the gate g of eq. 33, which pears section 4.7 leaves
+/// open.
+inline void drawSegmentsAgainstGate(const simulation::ActiveSensorProfile& profile,
+                                    const std::string& path) {
+  const EdgeScans scans(profile);
+  plot::Panel panel{
+      "A convex edge of two faces", "gate g [sigma]", "segments, mean of 100", "", 0.0, {}};
+  for (const double ahead : {0.5, 0.0}) {
+    const std::string view = ahead == 0.5 ? ", view of figure 4" : ", view of figure 5";
+    plot::Series plain{"recursion alone" + view, plot::Style::kLineAndPoints, {}};
+    plot::Series full{"line extractor" + view, plot::Style::kLineAndPoints, {}};
+    for (double gate = 1.5; gate <= 6.0; gate += 0.5) {
+      lines::LineExtractorConfig config;
+      config.gate = gate;
+      plain.points.push_back(
+          {gate, countSegments(scans, ahead, lines::PlainExtractor(config)).mean});
+      full.points.push_back({gate, countSegments(scans, ahead, lines::LineExtractor(config)).mean});
+    }
+    panel.series.push_back(plain);
+    panel.series.push_back(full);
+  }
+  plot::writePng({1000, 600, 1, {panel}}, path);
+  std::printf("# segments against the gate are drawn in %s\n", path.c_str());
 }
 
 }  // namespace sightline::bench
