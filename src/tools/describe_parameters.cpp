@@ -8,6 +8,8 @@
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
+#include "nodes/sync_scan_driver_config.h"
+#include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/scanner_profile.h"
 
 namespace {
@@ -47,10 +49,18 @@ int main() {
              "Parameters of the node. `config/carriers` holds those that depend on who carries the "
              "scanner.",
              describe<nodes::LaserOdometryNodeConfig>());
+  const nodes::SyncScanDriverConfig driver;
+  printTable("sync_scan_driver", "Parameters of the node.", describe(driver));
   printTable("sim_sensor", "Parameters of the node.", describe<nodes::SimSensorConfig>());
   printTable("sim_sensor: scanners",
              "Parameters of one scanner, below `~scanners/NAME` of sim_sensor.",
              describe<nodes::SimScannerConfig>());
+  printTable("sim_sensor: active sensors",
+             "Parameters of one sensor on a head, below `~active_sensors/NAME` of sim_sensor.",
+             describe<nodes::SimActiveSensorConfig>());
+  printTable("Active sensor profiles",
+             "The files of `config/sensors` for synchronised-scan sensors, real or simulated.",
+             describe<sightline::simulation::ActiveSensorProfile>());
   printTable("Scanner profiles", "The files of `config/sensors` for time-of-flight scanners.",
              describe<sightline::simulation::ScannerProfile>());
   return 0;

@@ -183,6 +183,37 @@ TEST(WorldCast, HitsOfRandomDiscsLieOnTheirSurfaceAndNothingLiesBefore) {
   }
 }
 
+// Rays that stay within a strip meet the same with its shortlist as without.
+TEST(WorldCast, ShortlistLeavesOutNothingThatItsRaysCanMeet) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> place(-5.0, 5.0);
+  std::uniform_real_distribution<double> within(-0.2, 0.2);
+  World world;
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector2d start(place(random), place(random));
+    world.add(WorldSegment{{start, start + Eigen::Vector2d(place(random), place(random)) / 5.0}});
+  }
+  std::size_t kept = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d origin(place(random), place(random), 1.0);
+    const double heading = place(random);
+    const Eigen::Vector3d along(std::cos(heading), std::sin(heading), 0.0);
+    const Eigen::Vector3d across(-along.y(), along.x(), 0.0);
+    const auto shortlist = world.shortlist({origin, along}, 0.2);
+    kept += shortlist.segments.size();
+    for (int k = 0; k < 10; ++k) {
+      const Ray ray{origin + within(random) * across, along};
+      const auto all = world.cast(ray);
+      const auto some = world.cast(ray, shortlist);
+      ASSERT_EQ(all.has_value(), some.has_value());
+      if (all) {
+        EXPECT_EQ(all->segment, some->segment);
+      }
+    }
+  }
+  EXPECT_LT(kept, 300u * 20u);
+}
+
 TEST(WorldMaterial, TheLastOfANameIsFound) {
   World world;
   EXPECT_EQ(world.findMaterial("plaster"), 0u);

@@ -1,0 +1,86 @@
+#include "sightline/lines/plain_extractor.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "monte_carlo.h"
+#include "sightline/motion/sweep.h"
+
+namespace sightline::lines {
+namespace {
+
+using geometry::PolarLine;
+using geometry::Pose2;
+
+// A turning or standing sensor in front of an endless wall, given in its frame at the stamp.
+scan::Scan plainScan(const PolarLine& wall, double turn, double sigma, test::Gauss& gauss) {
+  scan::Scan scan;
+  scan.geometry = scan::ScanGeometry::uniform(-0.35, 0.7 / 255.0, 256, 4e-4, 0.1, 10.0);
+  const Pose2 T_start_end(0.0, 0.0, turn);
+  const Pose2 T_head_sensor(0.05, -0.03, 0.0);
+  scan.sensor_motion = motion::sweepMotion(*scan.geometry, T_start_end, T_head_sensor);
+  for (std::size_t i = 0; i < scan.geometry->beams(); ++i) {
+    const Pose2 pose = scan.sensor_motion.empty() ? Pose2() : scan.sensor_motion[i];
+    const PolarLine seen = geometry::transform(pose.inverse(), wall);
+    const double angle = scan.geometry->angles()[i];
+    scan.ranges.push_back(seen.rho / std::cos(seen.phi - angle) + gauss(sigma));
+  }
+  scan.kinds.assign(scan.ranges.size(), scan::ReturnKind::kValid);
+  scan.range_variances.assign(scan.ranges.size(), sigma * sigma);
+  return scan;
+}
+
+// pears section 4: the recursion, with the head still and while it turns.
+TEST(PlainExtractor, FollowsAWallWhileTheHeadTurns) {
+  test::Gauss gauss(1);
+  const PolarLine wall{1.5, 0.2, Eigen::Matrix2d::Zero()};
+  PlainExtractor extractor;
+  for (const double turn : {0.0, 0.3, -0.3}) {
+    int whole = 0;
+    test::Moments<1> nees;
+    for (int run = 0; run < 300; ++run) {
+      const auto& segments = extractor.extract(plainScan(wall, turn, 0.003, gauss));
+      if (segments.size() != 1) continue;  // the recursion alone breaks up now and then
+      ++whole;
+      EXPECT_EQ(segments[0].last_beam, 255u);
+      const Eigen::Vector2d error = geometry::difference(segments[0].line, wall);
+      nees.add(Eigen::Matrix<double, 1, 1>(
+          test::normalisedSquare<2>(error, segments[0].line.covariance)));
+    }
+    EXPECT_GT(whole, 150) << turn;
+    EXPECT_NEAR(nees.mean()[0], 2.0, 0.6) << turn;
+  }
+}
+
+TEST(PlainExtractor, StartsAnewWhereAnObservationIsNotValidated) {
+  test::Gauss gauss(1);
+  scan::Scan scan = plainScan({1.5, 0.0, Eigen::Matrix2d::Zero()}, 0.0, 1e-4, gauss);
+  for (std::size_t i = 128; i < 256; ++i) scan.ranges[i] += 0.5;
+  LineExtractorConfig config;
+  config.gate = 5.0;
+  PlainExtractor extractor(config);
+  const auto& segments = extractor.extract(scan);
+  ASSERT_EQ(segments.size(), 2u);
+  EXPECT_EQ(segments[0].last_beam, 127u);
+  EXPECT_EQ(segments[1].first_beam, 128u);
+  EXPECT_NEAR(segments[0].line.rho, 1.5, 1e-3);
+}
+
+TEST(PlainExtractor, SkipsReturnsThatAreNotValid) {
+  test::Gauss gauss(1);
+  scan::Scan scan = plainScan({1.5, 0.0, Eigen::Matrix2d::Zero()}, 0.0, 1e-4, gauss);
+  for (std::size_t i = 0; i < 256; i += 3) {
+    scan.kinds[i] = scan::ReturnKind::kInvalid;
+    scan.ranges[i] = std::nan("");
+  }
+  LineExtractorConfig config;
+  config.gate = 5.0;
+  PlainExtractor extractor(config);
+  ASSERT_EQ(extractor.extract(scan).size(), 1u);
+  scan.kinds.assign(256, scan::ReturnKind::kInvalid);
+  EXPECT_TRUE(extractor.extract(scan).empty());
+}
+
+}  // namespace
+}  // namespace sightline::lines

@@ -1,0 +1,228 @@
+#include "sightline/simulation/active_sensor.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config_error.h"
+#include "sightline/lines/line_extractor.h"
+#include "sightline/simulation/simulation.h"
+#include "temporary_folder.h"
+
+namespace sightline::simulation {
+namespace {
+
+using scan::ReturnKind;
+using triangulation::HeadCommand;
+using triangulation::Ranger;
+using triangulation::RangeScan;
+using Mode = HeadCommand::Mode;
+
+constexpr std::int64_t kScan = 102'400'000;  // ns, 256 samples at 2.5 kHz
+
+world::World cardAhead(double x, double reflectivity = 1.0) {
+  world::World world;
+  const std::size_t card = world.addMaterial({"card", reflectivity});
+  world.add(world::WorldSegment{{{x, 3.0}, {x, -3.0}}, 0.0, 2.0, card});
+  return world;
+}
+
+Eigen::Isometry3d stillAt(std::int64_t) {
+  return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 1.0));
+}
+
+RangeScan firstScan(const world::World& world, const ActiveSensorProfile& profile = {},
+                    std::uint64_t seed = 1) {
+  ActiveSensor sensor(profile, seed);
+  return Ranger(profile.calibrated()).range(sensor.advance(world, kScan, stillAt).at(0));
+}
+
+TEST(ActiveSensor, SamplesWithoutAPause) {
+  ActiveSensor sensor({}, 1);
+  const auto world = cardAhead(1.0);
+  EXPECT_TRUE(sensor.advance(world, kScan - 400'001, stillAt).empty());
+  const auto first = sensor.advance(world, kScan - 400'000, stillAt);
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_EQ(first[0].stamp, 0);
+  EXPECT_EQ(first[0].currents.size(), 256u);
+  const auto more = sensor.advance(world, 1'000'000'000, stillAt);
+  ASSERT_EQ(more.size(), 8u);
+  EXPECT_EQ(more[0].stamp, kScan);
+  EXPECT_EQ(more[7].stamp, 8 * kScan);
+}
+
+TEST(ActiveSensor, GivesTheSameRunHoweverOftenItIsLookedAt) {
+  const auto world = cardAhead(1.3);
+  ActiveSensor at_once({}, 4);
+  ActiveSensor in_steps({}, 4);
+  ActiveSensor other_seed({}, 5);
+  const auto whole = at_once.advance(world, 2 * kScan, stillAt);
+  std::vector<triangulation::RawScan> parts;
+  for (std::int64_t time = 0; time <= 2 * kScan; time += 7'000'000) {
+    for (auto& scan : in_steps.advance(world, time, stillAt)) parts.push_back(scan);
+  }
+  ASSERT_GE(parts.size(), 1u);
+  EXPECT_EQ(parts[0].currents[77].first, whole[0].currents[77].first);
+  EXPECT_NE(other_seed.advance(world, kScan, stillAt)[0].currents[77].first,
+            whole[0].currents[77].first);
+}
+
+// NEES of every beam against the wall that is there: calibration, noise and geometry in one.
+TEST(ActiveSensor, RangesErrAsTheirVariancesSay) {
+  const double wall = 1.4;
+  const ActiveSensorProfile profile;
+  const Eigen::Vector2d origin = profile.sensor.origin.position();
+  double sum = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const scan::Scan scan = firstScan(cardAhead(wall), profile, seed).scan;
+    for (std::size_t i = 0; i < scan.beams(); ++i) {
+      ASSERT_TRUE(scan.isValid(i));
+      const double truth = (wall - origin.x()) / scan.geometry->cosines()[i];
+      sum += std::pow(scan.ranges[i] - truth, 2) / scan.range_variances[i];
+      ++count;
+    }
+  }
+  EXPECT_NEAR(sum / count, 1.0, 4.0 * std::sqrt(2.0 / count) + 0.01);
+}
+
+TEST(ActiveSensor, TooLittleLightIsInvalidAndTooFarIsNothing) {
+  EXPECT_THAT(firstScan(cardAhead(2.3, 0.05)).scan.kinds, testing::Each(ReturnKind::kInvalid));
+  EXPECT_THAT(firstScan(world::World()).scan.kinds, testing::Each(ReturnKind::kInvalid));
+  const scan::Scan far = firstScan(cardAhead(2.75)).scan;
+  EXPECT_GT(std::count(far.kinds.begin(), far.kinds.end(), ReturnKind::kNothing), 200);
+  EXPECT_THAT(firstScan(cardAhead(0.43)).scan.kinds[128], ReturnKind::kTooNear);
+}
+
+// pears section 3.3: missing parts. The far wall beside a post is lit, but the post hides it from
+// the lens, on one side of it only.
+TEST(ActiveSensor, APostMakesAMissingPartOnTheSideOfTheLens) {
+  world::World world = cardAhead(2.2);
+  world.add(world::WorldSegment{{{1.0, 0.05}, {1.0, -0.05}}, 0.0, 2.0, 1});
+  const scan::Scan scan = firstScan(world).scan;
+  std::size_t missing_left = 0;
+  std::size_t missing_right = 0;
+  const double post = std::atan2(0.03, 0.95);  // of its middle, from the scan's origin
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    if (scan.kinds[i] != ReturnKind::kInvalid) continue;
+    ++(scan.geometry->angles()[i] > post ? missing_left : missing_right);
+  }
+  EXPECT_EQ(missing_right, 0u);
+  EXPECT_GT(missing_left, 5u);
+}
+
+TEST(SensorHead, TurnsAQuarterInHalfASecond) {
+  SensorHead head({});
+  head.command({Mode::kPosition, geometry::radians(90.0), 0.0});
+  for (int i = 0; i < 1240; ++i) head.step(0.0004);
+  EXPECT_LT(head.angle(), geometry::radians(90.0));
+  for (int i = 0; i < 30; ++i) head.step(0.0004);
+  EXPECT_NEAR(head.angle(), geometry::radians(90.0), 1e-12);
+  EXPECT_EQ(head.rate(), 0.0);
+}
+
+TEST(SensorHead, StaysWithinItsLimitsAndSteps) {
+  const triangulation::HeadLimits limits;
+  SensorHead head(limits);
+  head.command({Mode::kRate, 0.0, -3.0});
+  double least = 0.0;
+  for (int i = 0; i < 2500; ++i) {
+    head.step(0.0004);
+    least = std::min(least, head.angle());
+  }
+  EXPECT_NEAR(least, limits.lower, 1e-6);
+  EXPECT_NEAR(head.rate(), 0.0, 0.02);
+  head.command({Mode::kPosition, 0.5001, 0.0});
+  for (int i = 0; i < 2500; ++i) head.step(0.0004);
+  EXPECT_NEAR(head.angle(), 80 * limits.resolution, 1e-12);  // 0.5027 rad, the nearest step
+  EXPECT_NEAR(head.reportedAngle(), head.angle(), 1e-12);
+}
+
+TEST(SensorHead, KeepsARateAndStops) {
+  SensorHead head({});
+  head.command({Mode::kRate, 0.0, 0.8});
+  for (int i = 0; i < 1250; ++i) head.step(0.0004);
+  EXPECT_NEAR(head.rate(), 0.8, 1e-12);
+  EXPECT_NEAR(head.angle(), 0.4, 0.02);
+  head.command({Mode::kStop, 0.0, 0.0});
+  for (int i = 0; i < 250; ++i) head.step(0.0004);
+  EXPECT_EQ(head.rate(), 0.0);
+}
+
+TEST(SensorHead, DoesNothingThatItsLimitsForbid) {
+  SensorHead head({});
+  head.command({Mode::kPosition, 2.0, 0.0});
+  head.command({Mode::kPosition, std::nan(""), 0.0});
+  head.command({Mode::kRate, 0.0, 50.0});
+  for (int i = 0; i < 250; ++i) head.step(0.0004);
+  EXPECT_EQ(head.angle(), 0.0);
+}
+
+// The walls of a room do not move, however the head turns while it looks.
+TEST(ActiveSensor, LinesHoldWhileTheHeadTurns) {
+  const ActiveSensorProfile profile;
+  const Ranger ranger(profile.calibrated());
+  const auto world = cardAhead(1.2);
+  ActiveSensor sensor(profile, 7);
+  sensor.command({Mode::kRate, 0.0, 0.6});
+  lines::LineExtractor extractor;
+  for (const auto& raw : sensor.advance(world, 6 * kScan, stillAt)) {
+    const RangeScan range_scan = ranger.range(raw);
+    EXPECT_FALSE(range_scan.scan.sensor_motion.empty());
+    const auto& segments = extractor.extract(range_scan.scan);
+    ASSERT_EQ(segments.size(), 1u);
+    const geometry::Pose2 T_map_projection = geometry::Pose2(0.0, 0.0, raw.head_angles[0]) *
+                                             geometry::Pose2(profile.sensor.origin.position(), 0.0);
+    const auto line = geometry::transform(T_map_projection, segments[0].line);
+    // Reported head angles are steps of 0.36 degrees.
+    EXPECT_NEAR(line.rho, 1.2, 0.01);
+    EXPECT_NEAR(line.phi, 0.0, 0.01);
+  }
+}
+
+TEST(Simulation, CarriesActiveSensorsBesideScanners) {
+  Simulation simulation(cardAhead(1.5), {}, {}, 1);
+  simulation.addScanner({}, {});
+  simulation.addActiveSensor({}, {});
+  simulation.commandHead(0, {Mode::kPosition, 0.3, 0.0});
+  std::size_t scans = 0;
+  std::size_t range_scans = 0;
+  for (int i = 0; i < 100; ++i) {
+    scans += simulation.step().size();
+    for (const auto& finished : simulation.rangeScans()) {
+      EXPECT_EQ(finished.sensor, 0u);
+      EXPECT_EQ(finished.range_scan.scan.stamp, static_cast<std::int64_t>(range_scans) * kScan);
+      ++range_scans;
+    }
+  }
+  EXPECT_EQ(range_scans, 4u);
+  EXPECT_EQ(scans, 20u);
+  EXPECT_NEAR(simulation.head(0).angle(), 0.3, 0.0032);
+}
+
+TEST(ActiveSensorProfile, ShippedFileIsThePaperSensor) {
+  const auto shipped =
+      ActiveSensorProfile::readFile(SIGHTLINE_SOURCE_DIR "/config/sensors/synchronised_scan.yaml");
+  const ActiveSensorProfile built_in;
+  EXPECT_NEAR(shipped.sensor.intrinsics.vergence, built_in.sensor.intrinsics.vergence, 1e-15);
+  EXPECT_EQ(shipped.optics.lens_diameter, built_in.optics.lens_diameter);
+  EXPECT_NEAR(shipped.sensor.scan.scanPeriod(), 1.0 / 9.8, 0.001);
+}
+
+TEST(ActiveSensorProfile, NamesWhatIsWrong) {
+  const test::TemporaryFolder folder;
+  const auto faultOf = [&](const std::string& text) -> std::string {
+    const std::string path = folder.write("sensor.yaml", text);
+    return test::errorOf([&] { ActiveSensorProfile::readFile(path).calibrated(); }).what();
+  };
+  EXPECT_THAT(faultOf("optics: {rays: 0}"), testing::HasSubstr("sensor.yaml:1: optics.rays"));
+  EXPECT_THAT(faultOf("head: {lower: 1.0, upper: 0.5}"), testing::HasSubstr("is not below upper"));
+  EXPECT_THAT(faultOf("scan: {range_min: 3.0}"), testing::HasSubstr("is not below range_max"));
+  EXPECT_THAT(faultOf("sensor: \"\""), testing::HasSubstr("serial number"));
+  EXPECT_THAT(faultOf("calibration: nowhere.yaml"), testing::HasSubstr("nowhere.yaml"));
+  EXPECT_THAT(faultOf("lens: 3"), testing::HasSubstr("lens"));
+}
+
+}  // namespace
+}  // namespace sightline::simulation

@@ -1,0 +1,172 @@
+#include "sightline/triangulation/ranger.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "monte_carlo.h"
+#include "sightline/triangulation/head_command.h"
+#include "sightline/triangulation/projection_geometry.h"
+
+namespace sightline::triangulation {
+namespace {
+
+using scan::ReturnKind;
+
+Calibration calibration() {
+  const SensorParameters parameters;
+  return {parameters, modelledTable(parameters, tableDepths(0.35, 2.85, 40))};
+}
+
+// Without noise.
+Photocurrents currentsOf(const Ranger& ranger, std::size_t beam, double range, double total) {
+  const SensorParameters& parameters = ranger.calibration().parameters;
+  const ProjectionGeometry geometry(parameters.intrinsics);
+  const double p = geometry.imagePosition(range, ranger.geometry()->angles()[beam]);
+  return photocurrentsAt(p, total, parameters.intrinsics.detector_length);
+}
+
+RawScan rawScan(const Ranger& ranger, double range, double total) {
+  RawScan raw;
+  raw.stamp = 12'345;
+  for (std::size_t beam = 0; beam < ranger.geometry()->beams(); ++beam) {
+    raw.currents.push_back(currentsOf(ranger, beam, range, total));
+    raw.head_angles.push_back(0.0);
+  }
+  return raw;
+}
+
+std::string faultOf(const Ranger& ranger, const RawScan& raw) {
+  try {
+    ranger.range(raw);
+  } catch (const scan::InvalidScan& fault) {
+    return fault.what();
+  }
+  return "none";
+}
+
+TEST(Photocurrents, DivideByWhereTheLightFalls) {
+  const Photocurrents currents = photocurrentsAt(2e-3, 10e-9, 0.01);
+  EXPECT_NEAR(currents.first, 7e-9, 1e-18);
+  EXPECT_NEAR(currents.second, 3e-9, 1e-18);
+  EXPECT_NEAR(imagePosition(currents, 0.01), 2e-3, 1e-12);
+  EXPECT_TRUE(std::isnan(imagePosition({0.0, 0.0}, 0.01)));
+  EXPECT_TRUE(std::isnan(imagePosition({-1e-12, 0.0}, 0.01)));
+}
+
+// 181.1 um nA of pears table 2.
+TEST(Photocurrents, NoiseOfThePositionFallsWithTheCurrent) {
+  EXPECT_NEAR(imagePositionSigma(10e-9, 36.22e-12, 0.01), 18.11e-6, 1e-9);
+}
+
+// Interpolation between 40 depths costs little beside the noise.
+TEST(Ranger, FindsTheRangeThatMadeTheImage) {
+  const Ranger ranger(calibration());
+  for (const double range : {0.41, 0.6, 1.0, 1.7, 2.3, 2.49}) {
+    for (const std::size_t beam : {0, 100, 255}) {
+      const double current = 26e-9 / (range * range);
+      const RangeReading reading = ranger.read(beam, currentsOf(ranger, beam, range, current));
+      EXPECT_EQ(reading.kind, ReturnKind::kValid);
+      EXPECT_NEAR(reading.range, range, 0.15 * std::sqrt(reading.variance));
+      EXPECT_NEAR(reading.depth, range * ranger.geometry()->cosines()[beam],
+                  0.15 * std::sqrt(reading.variance));
+    }
+  }
+}
+
+TEST(Ranger, VarianceIsThatOfTheRange) {
+  const Ranger ranger(calibration());
+  test::Gauss gauss(5);
+  for (const double range : {0.5, 1.2, 2.2}) {
+    const double current = 26e-9 / (range * range);
+    const double sigma = imagePositionSigma(current, 36.22e-12, 0.01);
+    test::Moments<1> ranges;
+    test::Moments<1> variances;
+    for (int i = 0; i < 20000; ++i) {
+      const Photocurrents exact = currentsOf(ranger, 30, range, current);
+      const double p = imagePosition(exact, 0.01) + gauss(sigma);
+      const RangeReading reading = ranger.read(30, photocurrentsAt(p, current, 0.01));
+      ranges.add(Eigen::Matrix<double, 1, 1>(reading.range));
+      variances.add(Eigen::Matrix<double, 1, 1>(reading.variance));
+    }
+    EXPECT_NEAR(variances.mean()[0] / ranges.covariance()(0, 0), 1.0, 0.04);
+  }
+}
+
+TEST(Ranger, SortsWhatIsOutsideByRep117) {
+  const Ranger ranger(calibration());
+  const auto kindOf = [&](double range, double current) {
+    return ranger.read(128, currentsOf(ranger, 128, range, current)).kind;
+  };
+  EXPECT_EQ(kindOf(0.39, 1e-7), ReturnKind::kTooNear);
+  EXPECT_EQ(kindOf(0.2, 1e-7), ReturnKind::kTooNear);
+  EXPECT_EQ(kindOf(2.55, 4e-9), ReturnKind::kNothing);
+  EXPECT_EQ(kindOf(3.5, 4e-9), ReturnKind::kNothing);
+  EXPECT_EQ(kindOf(1.0, 0.7e-9), ReturnKind::kInvalid);
+  EXPECT_EQ(kindOf(1.0, 0.0), ReturnKind::kInvalid);
+  EXPECT_EQ(kindOf(1.0, std::nan("")), ReturnKind::kInvalid);
+}
+
+TEST(Ranger, MakesAScanOfWhatTheSensorDelivers) {
+  const Ranger ranger(calibration());
+  const RangeScan result = ranger.range(rawScan(ranger, 1.0, 25e-9));
+  EXPECT_EQ(result.scan.stamp, 12'345);
+  EXPECT_EQ(result.scan.beams(), 256u);
+  EXPECT_TRUE(result.scan.sensor_motion.empty());
+  EXPECT_NEAR(result.scan.intensities[7], 25e-9, 1e-15);
+  EXPECT_NEAR(result.scan.geometry->timeOffsets()[10], 0.004, 1e-12);
+  EXPECT_NEAR(result.scan.geometry->angles()[0], geometry::radians(-18.5), 1e-9);
+  EXPECT_NEAR(result.origin.x(), 0.05, 1e-12);
+}
+
+TEST(Ranger, RefusesScansThatDoNotFit) {
+  const Ranger ranger(calibration());
+  RawScan raw = rawScan(ranger, 1.0, 25e-9);
+  EXPECT_EQ(faultOf(ranger, raw), "none");
+  raw.currents.pop_back();
+  EXPECT_EQ(faultOf(ranger, raw), "255 pairs of photocurrents for 256 beams");
+  raw = rawScan(ranger, 1.0, 25e-9);
+  raw.head_angles.resize(3);
+  EXPECT_EQ(faultOf(ranger, raw), "3 head angles for 256 beams");
+  raw = rawScan(ranger, 1.0, 25e-9);
+  raw.head_angles[9] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(faultOf(ranger, raw), "a head angle that is not finite");
+}
+
+// Against transforms taken one after the other.
+TEST(HeadMotion, IsTheRigidMotionOfTheProjectionFrame) {
+  const Eigen::Vector2d origin(0.05, -0.03);
+  const std::vector<double> angles{0.3, 0.35, 0.5};
+  const std::vector<geometry::Pose2> mount{{}, {0.1, 0.0, 0.02}, {0.2, 0.01, 0.05}};
+  const auto motion = headMotion(angles, origin, mount);
+  const Eigen::Vector2d fixed(1.7, 0.4);  // in the mount's frame at the first beam
+  const auto seenAt = [&](std::size_t beam) -> Eigen::Vector2d {
+    const Eigen::Vector2d p_mount = mount[beam].inverse() * fixed;
+    const Eigen::Vector2d p_head = geometry::Pose2(0.0, 0.0, angles[beam]).inverse() * p_mount;
+    return p_head - origin;
+  };
+  for (const std::size_t beam : {0, 1, 2}) {
+    EXPECT_TRUE((motion[beam] * seenAt(beam)).isApprox(seenAt(0), 1e-12)) << beam;
+  }
+  EXPECT_TRUE(headMotion({0.3, 0.3}, origin).empty());
+  EXPECT_FALSE(headMotion({0.3, 0.3}, origin, {{}, {}}).empty());
+}
+
+TEST(HeadLimits, NameWhatIsWrongWithACommand) {
+  using Mode = HeadCommand::Mode;
+  const HeadLimits limits;
+  const double nan = std::nan("");
+  EXPECT_EQ(limits.fault({Mode::kPosition, 1.5, 0.0}), "");
+  EXPECT_EQ(limits.fault({Mode::kRate, nan, -4.0}), "");
+  EXPECT_EQ(limits.fault({Mode::kStop, nan, nan}), "");
+  EXPECT_EQ(limits.fault({Mode::kPosition, nan, 0.0}), "a position that is not finite");
+  EXPECT_EQ(limits.fault({Mode::kPosition, -1.6, 0.0}),
+            "a position of -1.6000 rad, beyond the limits [-1.5708, 1.5708]");
+  EXPECT_EQ(limits.fault({Mode::kRate, 0.0, nan}), "a rate that is not finite");
+  EXPECT_EQ(limits.fault({Mode::kRate, 0.0, 5.0}),
+            "a rate of 5.0000 rad/s, beyond the limit 4.5000");
+}
+
+}  // namespace
+}  // namespace sightline::triangulation
