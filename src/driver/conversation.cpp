@@ -84,12 +84,17 @@ void Conversation::refuseVersion(int version) {
       trouble(Fault::kWrongVersion, fmt::format("{}, expected {}", version, kProtocolVersion));
 }
 
-// A scan from after a reboot that went unnoticed makes the device a stranger, who is asked at once.
+// A device that was known before the line was opened goes on by itself. A scan from after a reboot
+// that went unnoticed makes it a stranger, who is asked at once.
 bool Conversation::isOfDevice(const Frame& scan) {
-  if (!device_ || !decode(scan, report_)) return false;
-  const bool is_same = report_.boot == device_->boot;
-  if (!is_same) device_.reset();
-  return is_same;
+  if (!decode(scan, report_)) return false;
+  const bool is_known = known_ && report_.boot == known_->boot;
+  if (is_known) {
+    device_ = known_;
+  } else {
+    device_.reset();
+  }
+  return is_known;
 }
 
 Trouble Conversation::faultOf(const Identity& identity) const {
@@ -113,15 +118,15 @@ void Conversation::takeIdentity(const Identity& identity) {
   if (fault.fault != Fault::kNone) {
     trouble_ = fault;
     device_.reset();
+    known_.reset();
     return;
   }
-  if (identity.boot != boot_) {
-    if (clock_.observations() > 0) ++counts_.reboots;
+  if (!known_ || identity.boot != known_->boot) {
+    if (known_) ++counts_.reboots;
     clock_.reset();
     number_.reset();
   }
-  boot_ = identity.boot;
-  device_ = identity;
+  known_ = device_ = identity;
   trouble_ = {};
   greet_ = true;
 }

@@ -172,7 +172,8 @@ void measureCables() {
   const double cpu = clean->driver().cpuSeconds() - cpu_before;
   disturber.join();
 
-  print("driver.lost_scans", static_cast<double>(clean->judge().good_lost), "scans");
+  const auto all = clean->judge();  // what did not arrive whole, the driver did not fetch in time
+  print("driver.lost_scans", static_cast<double>(all.good_lost + all.broken), "scans");
   print("driver.cpu_percent", 100.0 * cpu / kSeconds, "%");
   print("driver.stamp_rms_ms", 1e3 * rms(late->judge().stamp_errors), "ms");
   const auto few = corrupted->judge();

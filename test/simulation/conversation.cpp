@@ -139,12 +139,12 @@ TEST_F(TwoEnds, GarbageIsAFault) {
 TEST_F(TwoEnds, HeadCommandsAreObeyedOrRefused) {
   connect();
   run(500 * kMs);
-  using Mode = triangulation::HeadCommand::Mode;
-  host_.command({Mode::kPosition, 0.7, 0.0}, moment());
+  using HeadMode = triangulation::HeadCommand::Mode;
+  host_.command({HeadMode::kPosition, 0.7, 0.0}, moment());
   run(50 * kMs);
   EXPECT_NEAR(device_.angle(), 0.7, 1e-9);
   EXPECT_EQ(host_.counts().refused_commands, 0U);
-  host_.command({Mode::kPosition, 3.0, 0.0}, moment());
+  host_.command({HeadMode::kPosition, 3.0, 0.0}, moment());
   run(50 * kMs);
   EXPECT_NEAR(device_.angle(), 0.7, 1e-9);
   EXPECT_EQ(host_.counts().refused_commands, 1U);
@@ -154,8 +154,8 @@ TEST_F(TwoEnds, HeadCommandsGrowOld) {
   connect();
   run(500 * kMs);
   awake_ = false;
-  using Mode = triangulation::HeadCommand::Mode;
-  host_.command({Mode::kPosition, 0.7, 0.0}, moment());
+  using HeadMode = triangulation::HeadCommand::Mode;
+  host_.command({HeadMode::kPosition, 0.7, 0.0}, moment());
   run(1200 * kMs);
   awake_ = true;
   run(1000 * kMs);

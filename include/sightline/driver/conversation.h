@@ -103,7 +103,7 @@ class Conversation {
   ConversationCounts counts_;
   Trouble trouble_;
   std::optional<Identity> device_;       // at this line, and the right one
-  std::uint32_t boot_ = 0;               // of the last device, also from before the line was opened
+  std::optional<Identity> known_;        // the last right one, also from before the line was opened
   std::optional<std::uint32_t> number_;  // of the last scan
   std::optional<PendingCommand> command_;
   ScanReport report_;
