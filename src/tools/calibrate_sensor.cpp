@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -56,8 +57,10 @@ void printResiduals(const ParameterEstimate& estimate) {
       static_cast<double>(estimate.residuals.size() - triangulation::kParameterCount);
   fmt::print("image positions: {} used, residual {:.2f} um rms\n", estimate.images.size(),
              1e6 * estimate.imageRms());
-  fmt::print("stripe edges: {} used, residual {:.3f} mm rms, {:.3f} mm of it not of the currents\n",
-             estimate.edges.size(), 1e3 * estimate.edgeRms(), 1e3 * estimate.edge_scatter);
+  fmt::print(
+      "stripe edges: {} used, residual {:.3f} mm rms; {:.3f} mm beyond the noise of the "
+      "currents\n",
+      estimate.edges.size(), 1e3 * estimate.edgeRms(), 1e3 * estimate.edge_scatter);
   const double chi_square = estimate.reducedChiSquare();
   fmt::print("chi-square: {:.3f} per degree of freedom\n", chi_square);
   if (std::abs(chi_square - 1.0) > 5.0 * std::sqrt(2.0 / freedom)) {
@@ -71,33 +74,58 @@ double degrees(double angle) {
   return angle * 180.0 / geometry::kPi;
 }
 
-// Image positions against angle and depth.
-std::vector<plot::Panel> imagePanels(const ParameterEstimate& estimate) {
-  plot::Panel map{"Residuals of image position",
-                  "scan angle [°]",
-                  "1 / depth [1/m]",
-                  "[standard deviations]",
-                  3.0,
-                  {{"", plot::Style::kColouredPoints, {}}}};
-  plot::Panel by_angle{"Image position, by angle",
-                       "scan angle [°]",
-                       "residual [µm]",
-                       "depth [m]",
-                       0.0,
-                       {{"", plot::Style::kColouredPoints, {}}}};
-  plot::Panel by_depth{
-      "Image position, by depth", "depth [m]", "residual [µm]",
-      "scan angle [°]",           0.0,         {{"", plot::Style::kColouredPoints, {}}}};
+// Whether anything is left in the table: it would be a pattern in colour.
+plot::Panel tablePanel(const ParameterEstimate& estimate) {
+  plot::Panel panel{"Image position",
+                    "scan angle [°]",
+                    "1 / depth [1/m]",
+                    "residual [standard deviations]",
+                    3.0,
+                    {{"", plot::Style::kColouredPoints, {}}}};
   for (std::size_t i = 0; i < estimate.images.size(); ++i) {
     const auto& image = estimate.images[i];
-    const double residual = estimate.residuals[static_cast<Eigen::Index>(i)];
-    const double angle = degrees(image.scan_angle);
-    const double error = 1e6 * residual * image.sigma;
-    map.series[0].points.push_back({angle, 1.0 / image.depth, residual});
-    by_angle.series[0].points.push_back({angle, error, image.depth});
-    by_depth.series[0].points.push_back({image.depth, error, angle});
+    panel.series[0].points.push_back({degrees(image.scan_angle), 1.0 / image.depth,
+                                      estimate.residuals[static_cast<Eigen::Index>(i)]});
   }
-  return {map, by_angle, by_depth};
+  return panel;
+}
+
+double imageError(const ParameterEstimate& estimate, std::size_t i) {  // µm
+  return 1e6 * estimate.residuals[static_cast<Eigen::Index>(i)] * estimate.images[i].sigma;
+}
+
+plot::Panel anglePanel(const ParameterEstimate& estimate) {
+  plot::Panel panel{"Image position, by angle",
+                    "scan angle [°]",
+                    "residual [µm]",
+                    "depth [m]",
+                    0.0,
+                    {{"", plot::Style::kColouredPoints, {}}}};
+  for (std::size_t i = 0; i < estimate.images.size(); ++i) {
+    const auto& image = estimate.images[i];
+    panel.series[0].points.push_back(
+        {degrees(image.scan_angle), imageError(estimate, i), image.depth});
+  }
+  return panel;
+}
+
+// Between the lines 95 % are expected.
+plot::Panel depthPanel(const ParameterEstimate& estimate) {
+  std::map<double, std::vector<double>> sigmas;
+  plot::Panel panel{"Image position, by depth", "depth [m]", "residual [µm]", "", 0.0, {}};
+  panel.series = {{"measured less predicted", plot::Style::kPoints, {}},
+                  {"twice the predicted noise, either way", plot::Style::kLine, {}}};
+  for (std::size_t i = 0; i < estimate.images.size(); ++i) {
+    panel.series[0].points.push_back({estimate.images[i].depth, imageError(estimate, i)});
+    sigmas[estimate.images[i].depth].push_back(1e6 * estimate.images[i].sigma);
+  }
+  for (const double side : {2.0, -2.0}) {
+    for (const auto& [depth, values] : sigmas) {
+      panel.series[1].points.push_back({depth, side * values[values.size() / 2]});
+    }
+    panel.series[1].points.push_back({std::nan(""), 0.0});
+  }
+  return panel;
 }
 
 plot::Panel edgePanel(const ParameterEstimate& estimate) {
@@ -124,8 +152,8 @@ void draw(const ParameterEstimate& estimate, const std::filesystem::path& path) 
   figure.width = 1400;
   figure.height = 1000;
   figure.columns = 2;
-  figure.panels = imagePanels(estimate);
-  figure.panels.push_back(edgePanel(estimate));
+  figure.panels = {tablePanel(estimate), anglePanel(estimate), depthPanel(estimate),
+                   edgePanel(estimate)};
   plot::writePng(figure, path.string());
 }
 

@@ -8,6 +8,7 @@
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
+#include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/scanner_profile.h"
 
 namespace {
@@ -51,6 +52,12 @@ int main() {
   printTable("sim_sensor: scanners",
              "Parameters of one scanner, below `~scanners/NAME` of sim_sensor.",
              describe<nodes::SimScannerConfig>());
+  printTable("sim_sensor: active sensors",
+             "Parameters of one sensor on a head, below `~active_sensors/NAME` of sim_sensor.",
+             describe<nodes::SimActiveSensorConfig>());
+  printTable("Active sensor profiles",
+             "The files of `config/sensors` for synchronised-scan sensors, real or simulated.",
+             describe<sightline::simulation::ActiveSensorProfile>());
   printTable("Scanner profiles", "The files of `config/sensors` for time-of-flight scanners.",
              describe<sightline::simulation::ScannerProfile>());
   return 0;

@@ -11,6 +11,7 @@
 #include "nodes/room_tracker_config.h"
 #include "sightline/pipeline/offline_config.h"
 #include "sightline/pipeline/scan_odometry.h"
+#include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/path.h"
 #include "sightline/simulation/scanner_profile.h"
 #include "sightline/world/room_map.h"
@@ -56,7 +57,13 @@ TEST(ShippedFiles, Worlds) {
   });
 }
 TEST(ShippedFiles, Sensors) {
-  expectToLoad("config/sensors", simulation::ScannerProfile::readFile);
+  expectToLoad("config/sensors", [](const std::string& path) {
+    if (config::Node::readFile(path).has("sensor")) {
+      simulation::ActiveSensorProfile::readFile(path).calibrated();
+    } else {
+      simulation::ScannerProfile::readFile(path);
+    }
+  });
 }
 TEST(ShippedFiles, Paths) {
   expectToLoad("config/paths", simulation::Path::readFile);
