@@ -10,6 +10,7 @@ void ActiveSensorProfile::visit(config::FieldVisitor& visitor) {
                  {"Hz", config::kNotNegative,
                   "of the detector (pears table 1: 1 kHz), which makes neighbours share some of "
                   "their light and noise; 0: none, as in pears eq. 2"});
+  visitor.group("rig", rig);
   visitor.text("calibration", calibration,
                "path of a calibration file, relative to this one; empty: the table that a sensor "
                "with these parameters fills");
@@ -28,6 +29,7 @@ void ActiveSensorProfile::check(const std::string& source) const {
   config::validate(*this, source);
   sensor.check(source);
   head.check(source);
+  rig.check(source);
 }
 
 triangulation::Calibration ActiveSensorProfile::calibrated() const {
