@@ -34,8 +34,8 @@ std::string blockName(std::size_t panel, std::size_t series) {
 std::string dataBlock(const std::string& name, const Series& series) {
   std::string text = name + " << END\n";
   for (const Point& point : series.points) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
-    text += fmt::format("{:.8g} {:.8g} {:.8g}\n", point.x, point.y, point.colour);
+    const bool is_gap = !std::isfinite(point.x) || !std::isfinite(point.y);
+    text += is_gap ? "\n" : fmt::format("{:.8g} {:.8g} {:.8g}\n", point.x, point.y, point.colour);
   }
   return text + "END\n";
 }
@@ -59,9 +59,14 @@ std::string axesOf(const Panel& panel) {
                                  literal(panel.title), literal(panel.x_label),
                                  literal(panel.y_label), literal(panel.colour_label));
   if (panel.colour_limit > 0.0) {
-    return text + fmt::format("set cbrange [{}:{}]\n", -panel.colour_limit, panel.colour_limit);
+    return text + fmt::format(
+                      "set palette defined (-1 '#2166ac', 0 '#dddddd', 1 '#b2182b')\n"
+                      "set cbrange [{}:{}]\n",
+                      -panel.colour_limit, panel.colour_limit);
   }
-  return text + "set cbrange [*:*]\n";
+  return text +
+         "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
+         "set cbrange [*:*]\n";
 }
 
 std::string drawing(const Panel& panel, std::size_t index) {
@@ -122,7 +127,7 @@ std::string gnuplotScript(const Figure& figure, const std::string& png_path) {
   const int columns = std::max(1, figure.columns);
   std::string text = fmt::format(
       "set encoding utf8\nset terminal pngcairo noenhanced size {},{} font 'Sans,11'\n"
-      "set output {}\nset grid\nset palette defined (-1 '#2166ac', 0 '#dddddd', 1 '#b2182b')\n",
+      "set output {}\nset grid\n",
       figure.width, figure.height, literal(png_path));
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const auto& series = figure.panels[i].series;

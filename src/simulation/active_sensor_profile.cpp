@@ -10,6 +10,7 @@ void ActiveSensorProfile::visit(config::FieldVisitor& visitor) {
                  {"Hz", config::kNotNegative,
                   "of the detector (pears table 1: 1 kHz), which makes neighbours share some of "
                   "their light and noise; 0: none, as in pears eq. 2"});
+  visitor.group("rig", rig);
   visitor.text("calibration", calibration,
                "path of a calibration file, relative to this one; empty: the table that a sensor "
                "with these parameters fills");
@@ -28,11 +29,13 @@ void ActiveSensorProfile::check(const std::string& source) const {
   config::validate(*this, source);
   sensor.check(source);
   head.check(source);
+  rig.check(source);
 }
 
 triangulation::Calibration ActiveSensorProfile::calibrated() const {
   if (calibration.empty()) {
-    const auto depths = triangulation::tableDepths(0.35, 2.85, 40);
+    const auto depths =
+        triangulation::tableDepths(rig.nearest, rig.farthest, static_cast<std::size_t>(rig.depths));
     return {sensor, triangulation::modelledTable(sensor, depths)};
   }
   auto result = triangulation::Calibration::readFile(calibration);

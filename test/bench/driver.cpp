@@ -10,6 +10,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
+#include "bench/allocations.h"
 #include "bench/driver/channel.h"
 #include "bench/driver/head.h"
 #include "bench/figures.h"
@@ -45,15 +46,20 @@ void measureParser() {
   driver::FrameParser parser;
   driver::ScanReport report;
   std::size_t understood = 0;
+  std::size_t allocated = 0;
   const std::int64_t began = steadyNow();
   for (std::size_t taken = 0; taken < stream.size();) {
     taken +=
         parser.append({stream.data() + taken, std::min<std::size_t>(512, stream.size() - taken)});
     while (const auto frame = parser.next()) understood += decode(*frame, report) ? 1U : 0U;
+    if (understood == 1) allocated = allocations;  // since then its vectors have their size
   }
   const double seconds = 1e-9 * static_cast<double>(steadyNow() - began);
+  const std::size_t allocations_after = allocations;
   if (understood != kScans) std::printf("# driver: %zu of %u scans parsed\n", understood, kScans);
   print("driver.parse_mb_per_s", 1e-6 * static_cast<double>(stream.size()) / seconds, "MB/s");
+  print("driver.parse_allocations", static_cast<double>(allocations_after - allocated),
+        "allocations");
   const double share = driver::lineSeconds(stream.size() / kScans, 460800) * kScanRate;
   print("driver.line_share_percent", 100.0 * share, "%");
 }

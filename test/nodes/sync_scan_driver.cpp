@@ -1,15 +1,8 @@
 // The driver against emulated devices that behave, and others that do not.
-#include <atomic>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <map>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -18,124 +11,26 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
-#include "nodes/driver_process.h"
+#include "nodes/driver_test.h"
 #include "nodes/recorder.h"
 #include "sightline/HeadCommand.h"
 #include "sightline/bridge/range_scan_conversion.h"
 #include "sightline/lines/line_extractor.h"
-#include "sightline/simulation/active_sensor_device.h"
-#include "sightline/simulation/emulated_device.h"
-#include "sightline/simulation/scanner.h"
-#include "temporary_folder.h"
 #include "tools/program.h"
 
 namespace sightline {
 namespace {
 
-using simulation::ActiveSensorDevice;
 using simulation::ActiveSensorProfile;
-using simulation::DeliveredScan;
 using simulation::EmulatedDevice;
 using simulation::FirmwareConfig;
+using test::comesTrue;
+using test::deviceInLivingRoom;
 using test::DriverProcess;
 using test::Recorder;
 using testing::HasSubstr;
-using testing::StartsWith;
 
-bool comesTrue(const std::function<bool()>& condition) {
-  for (int i = 0; i < 2000 && ros::ok(); ++i) {
-    if (condition()) return true;
-    ros::WallDuration(0.01).sleep();
-  }
-  return false;
-}
-
-std::unique_ptr<ActiveSensorDevice> deviceInLivingRoom() {
-  return std::make_unique<ActiveSensorDevice>(
-      ActiveSensorProfile{},
-      world::World::readFile(SIGHTLINE_SOURCE_DIR "/config/worlds/living_room.yaml"),
-      simulation::inSpace({-1.5, 1.0, 2.5}), 1);
-}
-
-// The latest status of every part of every node.
-class Diagnostics {
- public:
-  std::string text(const std::string& name) const {
-    const auto status = find(name);
-    return status ? status->message : "";
-  }
-  std::string value(const std::string& name, const std::string& key) const {
-    const auto status = find(name);
-    if (!status) return "";
-    for (const auto& pair : status->values) {
-      if (pair.key == key) return pair.value;
-    }
-    return "";
-  }
-  std::string hardware(const std::string& name) const {
-    const auto status = find(name);
-    return status ? status->hardware_id : "";
-  }
-
- private:
-  std::optional<diagnostic_msgs::DiagnosticStatus> find(const std::string& name) const {
-    std::optional<diagnostic_msgs::DiagnosticStatus> latest;
-    for (const auto& array : recorder_.all()) {
-      for (const auto& status : array.status) {
-        if (status.name == name) latest = status;
-      }
-    }
-    return latest;
-  }
-  Recorder<diagnostic_msgs::DiagnosticArray> recorder_{"/diagnostics"};
-};
-
-class SyncScanDriver : public ::testing::Test {
- protected:
-  // A device at a port, and its driver in the namespace of the same name.
-  void start(const std::string& name, const FirmwareConfig& firmware = {}) {
-    device_.emplace(folder_.path(name), firmware, deviceInLivingRoom(), 1,
-                    [this](const DeliveredScan& scan) { remember(scan); });
-    drive(name);
-  }
-  void drive(const std::string& name) {
-    drivers_.push_back(std::make_unique<DriverProcess>(
-        name, std::vector<std::string>{"_port:=" + folder_.path(name)}));
-  }
-  void expectStatus(const std::string& ns, const std::string& text) {
-    const std::string name = ns + "/sync_scan_driver: device";
-    EXPECT_TRUE(comesTrue([&] { return diagnostics_.text(name).find(text) == 0; }))
-        << ns << ": " << diagnostics_.text(name);
-  }
-
-  void expectValue(const std::string& ns, const std::string& key, const std::string& value) {
-    const std::string name = ns + "/sync_scan_driver: device";
-    EXPECT_TRUE(comesTrue([&] { return diagnostics_.value(name, key) == value; }))
-        << ns << ": " << key << " " << diagnostics_.value(name, key);
-  }
-
-  void remember(const DeliveredScan& scan) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    sent_.push_back(scan);
-  }
-  // The scan that was sent nearest to a stamp.
-  std::optional<DeliveredScan> sentAt(const ros::Time& stamp) const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    for (const DeliveredScan& scan : sent_) {
-      if (std::abs(1e-9 * static_cast<double>(scan.sent.scan.stamp) - stamp.toSec()) < 0.03) {
-        return scan;
-      }
-    }
-    return std::nullopt;
-  }
-
-  test::TemporaryFolder folder_;
-  Diagnostics diagnostics_;
-  mutable std::mutex mutex_;
-  std::vector<DeliveredScan> sent_;
-  std::optional<EmulatedDevice> device_;
-  std::vector<std::unique_ptr<DriverProcess>> drivers_;
-};
+using SyncScanDriver = test::DriverTest;
 
 TEST_F(SyncScanDriver, ScansAreWhatTheDeviceMeasured) {
   Recorder<RangeScan> range_scans("/clean/range_scan");

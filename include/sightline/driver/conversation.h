@@ -42,7 +42,7 @@ struct ConversationCounts {
 
 /// The host's side of the wire format: asks who is there, has it scan, keeps its clock, and asks
 /// again whenever the scans cease. Knows no port and no time of its own: bytes and moments are
-/// brought, and what is to be sent is taken away. After it has grown it allocates nothing.
+/// brought, and what is to be sent is taken away.
 class Conversation {
  public:
   using OnScan = std::function<void(const triangulation::RawScan&)>;

@@ -23,7 +23,7 @@ enum class Style { kPoints, kLine, kLineAndPoints, kColouredPoints };
 struct Series {
   std::string title;  ///< in the key; empty: not there
   Style style = Style::kPoints;
-  std::vector<Point> points;  ///< those that are not finite are left out
+  std::vector<Point> points;  ///< one that is not finite interrupts a line
 };
 
 /// One pair of axes.
@@ -31,8 +31,8 @@ struct Panel {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::string colour_label;   ///< of coloured points
-  double colour_limit = 0.0;  ///< the colour scale is [−limit, limit]; 0: as the points need
+  std::string colour_label;  ///< of coloured points
+  double colour_limit = 0.0;  ///< the scale is [−limit, limit], grey in the middle; 0: as they need
   std::vector<Series> series;
 };
 

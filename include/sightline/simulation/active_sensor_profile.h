@@ -3,6 +3,7 @@
 #include <string>
 
 #include "sightline/config/fields.h"
+#include "sightline/simulation/calibration_rig.h"
 #include "sightline/simulation/optical_head.h"
 #include "sightline/triangulation/calibration.h"
 #include "sightline/triangulation/head_command.h"
@@ -16,6 +17,7 @@ struct ActiveSensorProfile {
   triangulation::HeadLimits head;
   Optics optics;
   double bandwidth = 0.0;   ///< of the detector [Hz]; 0: none (pears eq. 2 has none)
+  RigConfig rig;            ///< for calibrate_sensor
   std::string calibration;  ///< path of a calibration file; empty: as the parameters say
 
   void visit(config::FieldVisitor& visitor);

@@ -34,6 +34,12 @@ void Program::positional(const std::string& name, std::string& value, const std:
   app_->add_option(name, value, meaning)->required()->option_text(" ");
 }
 
+void Program::positional(const std::string& name, std::optional<std::string>& value,
+                         const std::string& meaning) {
+  const auto set = [&value](const std::string& text) { value = text; };
+  app_->add_option_function<std::string>(name, set, meaning)->option_text(" ");
+}
+
 void Program::flag(const std::string& name, bool& value, const std::string& meaning) {
   app_->add_flag(name, value, meaning)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
 }

@@ -29,6 +29,9 @@ class Program {
 
   /// The next word that belongs to no option; it may not be left out.
   void positional(const std::string& name, std::string& value, const std::string& meaning);
+  /// One that may be left out.
+  void positional(const std::string& name, std::optional<std::string>& value,
+                  const std::string& meaning);
   /// An option without a value: true where it is given.
   void flag(const std::string& name, bool& value, const std::string& meaning);
 
