@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Print `passed|failed|skipped NAME` for every test case that ctest ran in a build folder.
 
-usage: test_cases.py BUILD LABEL
+usage: test_cases.py BUILD
 
 ctest.xml there tells which programs ran and how they ended, test_results/sightline/*.xml which cases they held. A
 program that failed without a failed case (a crash, a time-out, a rostest whose node died) is a case itself.
@@ -49,13 +49,13 @@ def cases_of_program(results, program):
 
 
 def main():
-    build, label = pathlib.Path(sys.argv[1]), sys.argv[2]
+    build = pathlib.Path(sys.argv[1])
     for run in ElementTree.parse(build / "ctest.xml").iter("testcase"):
         cases = cases_of_program(build / "test_results/sightline", run.get("name"))
         if not cases or (outcome(run) == "failed" and all(result != "failed" for result, _ in cases)):
             cases.append((outcome(run), "the program"))
         for result, name in cases:
-            print(result, f'{label} {run.get("name").split("test_", 1)[-1]} {name}')
+            print(result, f'{run.get("name").split("test_", 1)[-1]} {name}')
 
 
 if __name__ == "__main__":

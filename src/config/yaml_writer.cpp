@@ -4,7 +4,7 @@
 
 namespace sightline::config {
 
-std::string quoted(const std::string& text) {
+std::string yamlQuoted(const std::string& text) {
   YAML::Emitter emitter;
   emitter << YAML::DoubleQuoted << text;
   return emitter.c_str();
@@ -30,7 +30,7 @@ void YamlWriter::flag(const char* name, bool& value, const char* meaning) {
 }
 
 void YamlWriter::text(const char* name, std::string& value, const char* meaning) {
-  line(name, quoted(value), meaning);
+  line(name, yamlQuoted(value), meaning);
 }
 
 void YamlWriter::numbers(const char* name, std::vector<double>& values, const Field& field) {

@@ -34,7 +34,8 @@ void ActiveSensorProfile::check(const std::string& source) const {
 
 triangulation::Calibration ActiveSensorProfile::calibrated() const {
   if (calibration.empty()) {
-    const auto depths = triangulation::tableDepths(0.35, 2.85, 40);
+    const auto depths =
+        triangulation::tableDepths(rig.nearest, rig.farthest, static_cast<std::size_t>(rig.depths));
     return {sensor, triangulation::modelledTable(sensor, depths)};
   }
   auto result = triangulation::Calibration::readFile(calibration);

@@ -1,9 +1,10 @@
-// The triangulation sensor: its noise against the paper's, lines of its scans, speed of its
-// simulation.
+// The triangulation sensor: its noise against the paper's, its calibration, lines of its scans,
+// speed of its simulation.
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 
+#include "bench/sensor/calibration.h"
 #include "bench/sensor/edge.h"
 #include "bench/sensor/table2.h"
 #include "sightline/simulation/active_sensor.h"
@@ -50,6 +51,7 @@ int main(int, char** argv) {
   const auto profile = simulation::ActiveSensorProfile::readFile(
       SIGHTLINE_SOURCE_DIR "/config/sensors/synchronised_scan.yaml");
   bench::table2(profile);
+  bench::calibration();
   bench::edges(profile);
   bench::drawSegmentsAgainstGate(
       profile,

@@ -8,7 +8,7 @@
 namespace sightline::config {
 
 /// A text as YAML reads it back, whatever it holds.
-std::string quoted(const std::string& text);
+std::string yamlQuoted(const std::string& text);
 
 namespace detail {
 class YamlWriter : public FieldVisitor {

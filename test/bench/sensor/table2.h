@@ -16,16 +16,17 @@ namespace sightline::bench {
 
 /// What pears measured, 1000 readings a row.
 struct Table2Row {
+  const char* name;
   double depth;        // z [m]
   double range_sigma;  // σ_z [m]
   double current;      // I₀ [A]
   double image_sigma;  // Δp [m]
 };
 constexpr Table2Row kTable2[] = {
-    {0.75, 0.05e-2, 48.0e-9, 3.81e-6},   {1.0, 0.148e-2, 26.0e-9, 6.615e-6},
-    {1.25, 0.463e-2, 16.0e-9, 11.3e-6},  {1.5, 0.798e-2, 11.0e-9, 15.745e-6},
-    {1.75, 1.568e-2, 8.3e-9, 22.095e-6}, {2.0, 2.547e-2, 6.4e-9, 29.265e-6},
-    {2.25, 3.713e-2, 5.0e-9, 35.28e-6},  {2.5, 7.662e-2, 4.3e-9, 45.07e-6},
+    {"0.75", 0.75, 0.05e-2, 48.0e-9, 3.81e-6},   {"1.0", 1.0, 0.148e-2, 26.0e-9, 6.615e-6},
+    {"1.25", 1.25, 0.463e-2, 16.0e-9, 11.3e-6},  {"1.5", 1.5, 0.798e-2, 11.0e-9, 15.745e-6},
+    {"1.75", 1.75, 1.568e-2, 8.3e-9, 22.095e-6}, {"2.0", 2.0, 2.547e-2, 6.4e-9, 29.265e-6},
+    {"2.25", 2.25, 3.713e-2, 5.0e-9, 35.28e-6},  {"2.5", 2.5, 7.662e-2, 4.3e-9, 45.07e-6},
 };
 
 /// A white target across the beam that points straight ahead.
@@ -80,12 +81,12 @@ inline void table2(const simulation::ActiveSensorProfile& profile) {
   std::vector<double> range_ratios;
   for (const Table2Row& row : kTable2) {
     const Readings readings = readRepeatedly(profile, row.depth, range_ratios.size() + 1);
-    const std::string name = fmt::format("sensor.table2.{:.2f}.", row.depth);
+    const std::string name = fmt::format("sensor.table2.{}.", row.name);
     range_ratios.push_back(readings.depth_sigma / row.range_sigma);
     print(name + "current_ratio", readings.current / row.current, "1");
     print(name + "image_sigma_ratio", readings.image_sigma / row.image_sigma, "1");
     print(name + "range_sigma_ratio", range_ratios.back(), "1");
-    print(fmt::format("sensor.variance_ratio.{:.2f}", row.depth), readings.variance_ratio, "1");
+    print(fmt::format("sensor.variance_ratio.{}", row.name), readings.variance_ratio, "1");
   }
   std::sort(range_ratios.begin(), range_ratios.end());
   print("sensor.table2.median_range_sigma_ratio", 0.5 * (range_ratios[3] + range_ratios[4]), "1");
