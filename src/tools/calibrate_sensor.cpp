@@ -109,7 +109,7 @@ plot::Panel anglePanel(const ParameterEstimate& estimate) {
   return panel;
 }
 
-// Between the lines 95 % are expected.
+// Between the lines, drawn for the middle beam, 95 % are expected.
 plot::Panel depthPanel(const ParameterEstimate& estimate) {
   std::map<double, std::vector<double>> sigmas;
   plot::Panel panel{"Image position, by depth", "depth [m]", "residual [µm]", "", 0.0, {}};

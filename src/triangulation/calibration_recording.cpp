@@ -16,8 +16,11 @@ using CsvRow = config::CsvTable::Row;
 // Rows of one placement agree in these; those of plain targets in a width of 0.
 using PlacementKey = std::tuple<double, double, double>;  // stripe width, stripe edge, depth
 
-PlacementKey placementOf(const CsvRow& row) {
+PlacementKey placementOf(const CsvRow& row, const SensorParameters& sensor) {
   const double depth = row.number("depth_m", config::kPositive);
+  if (depth <= sensor.origin.x) {
+    row.fail("depth_m", fmt::format("{} is not ahead of the scan's origin", depth));
+  }
   const std::string& kind = row.text("target");
   if (kind == "plain") return {0.0, 0.0, depth};
   if (kind != "striped") row.fail("target", fmt::format("'{}' is neither plain nor striped", kind));
@@ -54,7 +57,7 @@ CalibrationRecording readRecording(const config::CsvTable& table, const SensorPa
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const CsvRow row = table.row(i);
     const BeamAverage average = readBeam(row, sensor);
-    if (!placements[placementOf(row)].emplace(average.beam, average).second) {
+    if (!placements[placementOf(row, sensor)].emplace(average.beam, average).second) {
       row.fail("beam", fmt::format("{} saw this target before", average.beam));
     }
   }

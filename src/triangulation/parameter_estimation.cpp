@@ -53,7 +53,8 @@ Information informationAt(const CalibrationResiduals& residuals, const Parameter
 // deviation means little.
 ParameterVector worstSigmas(const ParameterVector& at) {
   ParameterVector sigmas;
-  sigmas << 0.1 * at[0], 0.1 * at[1], 0.1 * at[2], 5e-3, 5e-3, 5e-3, geometry::radians(1.0);
+  sigmas << 0.1 * at[0], 0.1 * at[1], geometry::radians(0.5), 5e-3, 5e-3, 5e-3,
+      geometry::radians(1.0);
   return sigmas;
 }
 
@@ -171,10 +172,10 @@ double misfit(const CalibrationResiduals& residuals, const ParameterVector& at) 
 // The linear solution, unless noise has spoilt it so that the nominal sensor is nearer.
 ParameterVector startFor(const CalibrationResiduals& residuals, const ScanOrigin& origin,
                          const Intrinsics& nominal) {
-  const ParameterVector as_built = toVector(nominal, origin);
+  ParameterVector as_built = toVector(nominal, origin);
   const auto linear = startIntrinsics(residuals.images(), origin, nominal.detector_length);
   if (!linear) return as_built;
-  const ParameterVector solved = toVector(*linear, origin);
+  ParameterVector solved = toVector(*linear, origin);
   return misfit(residuals, solved) < misfit(residuals, as_built) ? solved : as_built;
 }
 

@@ -1,11 +1,38 @@
 #include "sightline/triangulation/ranger.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
 namespace sightline::triangulation {
+
+namespace {
+
+constexpr std::size_t kReach = 4;     // beams on either side that may see the same surface
+constexpr double kSameSurface = 4.0;  // standard deviations that they may be away
+
+// Median of the image positions around a beam, its own left out; nothing where they are too few, or
+// farther than `most` [m] from it.
+std::optional<double> neighbouringPosition(const std::vector<double>& positions, std::size_t beam,
+                                           double most) {
+  std::array<double, 2 * kReach> around;
+  std::size_t count = 0;
+  const std::size_t end = std::min(positions.size(), beam + kReach + 1);
+  for (std::size_t i = beam - std::min(beam, kReach); i < end; ++i) {
+    if (i != beam && std::isfinite(positions[i])) around[count++] = positions[i];
+  }
+  if (count < kReach) return std::nullopt;
+  std::nth_element(around.begin(), around.begin() + count / 2, around.begin() + count);
+  const double median = around[count / 2];
+  if (!(std::abs(median - positions[beam]) <= most)) return std::nullopt;
+  return median;
+}
+
+}  // namespace
 
 std::vector<geometry::Pose2> headMotion(const std::vector<double>& head_angles,
                                         const Eigen::Vector2d& origin,
@@ -37,18 +64,39 @@ RangeReading Ranger::read(std::size_t beam, const Photocurrents& currents) const
   const SensorParameters& parameters = calibration_.parameters;
   RangeReading reading;
   if (!(currents.total() >= parameters.scan.min_current)) return reading;
-  const double length = parameters.intrinsics.detector_length;
-  const auto found = calibration_.table.lookUp(beam, imagePosition(currents, length));
-  const double cosine = geometry_->cosines()[beam];
-  const double gain = found.gain / cosine;
-  const double sigma = imagePositionSigma(currents.total(), parameters.noise_current, length);
+  const double p = imagePosition(currents, parameters.intrinsics.detector_length);
+  const auto found = calibration_.table.lookUp(beam, p);
   reading.depth = found.depth - parameters.origin.x;
-  reading.range = reading.depth / cosine;
-  reading.variance = gain * gain * sigma * sigma;
+  reading.range = reading.depth / geometry_->cosines()[beam];
+  reading.variance = variance(beam, currents.total(), p);
   reading.kind = scan::classify(reading.range, *geometry_);
   if (found.reach == CalibrationTable::Reach::kNearer) reading.kind = scan::ReturnKind::kTooNear;
   if (found.reach == CalibrationTable::Reach::kFarther) reading.kind = scan::ReturnKind::kNothing;
   return reading;
+}
+
+double Ranger::sigma(double current) const {
+  const SensorParameters& parameters = calibration_.parameters;
+  return imagePositionSigma(current, parameters.noise_current,
+                            parameters.intrinsics.detector_length);
+}
+
+double Ranger::variance(std::size_t beam, double current, double image_position) const {
+  const double gain =
+      calibration_.table.lookUp(beam, image_position).gain / geometry_->cosines()[beam];
+  return std::pow(gain * sigma(current), 2);
+}
+
+std::vector<double> Ranger::imagePositions(const RawScan& raw) const {
+  const SensorParameters& parameters = calibration_.parameters;
+  std::vector<double> positions;
+  positions.reserve(raw.currents.size());
+  for (const Photocurrents& currents : raw.currents) {
+    const bool is_lit = currents.total() >= parameters.scan.min_current;
+    positions.push_back(is_lit ? imagePosition(currents, parameters.intrinsics.detector_length)
+                               : std::numeric_limits<double>::quiet_NaN());
+  }
+  return positions;
 }
 
 void Ranger::check(const RawScan& raw) const {
@@ -75,12 +123,16 @@ RangeScan Ranger::range(const RawScan& raw) const {
   scan.geometry = geometry_;
   scan.stamp = raw.stamp;
   scan.sensor_motion = headMotion(raw.head_angles, result.origin);
+  const std::vector<double> positions = imagePositions(raw);
   for (std::size_t beam = 0; beam < geometry_->beams(); ++beam) {
     const RangeReading reading = read(beam, raw.currents[beam]);
+    const double current = raw.currents[beam].total();
+    const auto neighbours = neighbouringPosition(positions, beam, kSameSurface * sigma(current));
     scan.ranges.push_back(reading.range);
     scan.kinds.push_back(reading.kind);
-    scan.range_variances.push_back(reading.variance);
-    scan.intensities.push_back(raw.currents[beam].total());
+    scan.range_variances.push_back(neighbours ? variance(beam, current, *neighbours)
+                                              : reading.variance);
+    scan.intensities.push_back(current);
   }
   return result;
 }

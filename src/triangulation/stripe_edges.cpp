@@ -141,31 +141,38 @@ double nearestEdge(const Stripes& stripes, double y, bool is_bright_left) {
   return stripes.edgeAt(2 * static_cast<int>(std::lround(pairs)) + odd);
 }
 
+// The edge at one of the crossings; nothing where too few beams show it.
+std::optional<StripeEdge> edgeAt(const TargetPlacement& target,
+                                 const std::vector<std::size_t>& crossings, std::size_t which,
+                                 const SensorParameters& sensor, double beam_width) {
+  const auto& beams = target.beams;
+  const double turn = sensor.origin.projected_vergence;
+  const double spacing = sensor.scan.scanAngle(1) - sensor.scan.scanAngle(0);
+  const double depth = target.depth - sensor.origin.x;
+  const auto nearby = static_cast<double>(beams[crossings[which]].beam);
+  const double beams_per_metre = std::cos(sensor.scan.scanAngle(nearby) + turn) / (depth * spacing);
+  const auto blur = static_cast<std::size_t>(std::ceil(0.5 * beam_width * beams_per_metre)) + 1;
+  const auto window = windowAround(beams, crossings, which, blur);
+  if (!window) return std::nullopt;
+  const auto place =
+      EdgeFit(beams, *window, sensor.noise_current, beams_per_metre, beam_width).locate();
+  const double scan_angle = sensor.scan.scanAngle(place.mean);
+  const double y = sensor.origin.y + depth * std::tan(scan_angle + turn);
+  const bool is_bright_left = beams[window->last - 1].current > beams[window->first].current;
+  return StripeEdge{target.depth, nearestEdge(*target.stripes, y, is_bright_left), scan_angle,
+                    place.sigma * spacing};
+}
+
 }  // namespace
 
 std::vector<StripeEdge> findStripeEdges(const TargetPlacement& target,
                                         const SensorParameters& sensor, double beam_width) {
-  const auto& beams = target.beams;
-  if (!target.stripes || beams.empty()) return {};
-  const double spacing = sensor.scan.scanAngle(1) - sensor.scan.scanAngle(0);
-  const double depth = target.depth - sensor.origin.x;
-  const auto crossings = crossingsOf(beams);
+  if (!target.stripes || target.beams.empty() || target.depth <= sensor.origin.x) return {};
+  const auto crossings = crossingsOf(target.beams);
   std::vector<StripeEdge> edges;
   for (std::size_t which = 0; which < crossings.size(); ++which) {
-    const auto nearby = static_cast<double>(beams[crossings[which]].beam);
-    const double angle = sensor.scan.scanAngle(nearby) + sensor.origin.projected_vergence;
-    const double beams_per_metre = std::cos(angle) / (depth * spacing);
-    const auto blur = static_cast<std::size_t>(std::ceil(0.5 * beam_width * beams_per_metre)) + 1;
-    const auto window = windowAround(beams, crossings, which, blur);
-    if (!window) continue;
-    const auto place =
-        EdgeFit(beams, *window, sensor.noise_current, beams_per_metre, beam_width).locate();
-    const double scan_angle = sensor.scan.scanAngle(place.mean);
-    const double y =
-        sensor.origin.y + depth * std::tan(scan_angle + sensor.origin.projected_vergence);
-    const bool is_bright_left = beams[window->last - 1].current > beams[window->first].current;
-    edges.push_back({target.depth, nearestEdge(*target.stripes, y, is_bright_left), scan_angle,
-                     place.sigma * spacing});
+    const auto edge = edgeAt(target, crossings, which, sensor, beam_width);
+    if (edge) edges.push_back(*edge);
   }
   return edges;
 }

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "config_error.h"
 #include "sightline/lines/line_extractor.h"
@@ -178,6 +179,42 @@ TEST(ActiveSensor, LinesHoldWhileTheHeadTurns) {
     // Reported head angles are steps of 0.36 degrees.
     EXPECT_NEAR(line.rho, 1.2, 0.01);
     EXPECT_NEAR(line.phi, 0.0, 0.01);
+  }
+}
+
+// NEES of walls seen near, far and obliquely, the head still or turning: the covariance of a line
+// follows from photocurrents, calibration and motion.
+TEST(ActiveSensor, CovariancesOfLinesAreHonest) {
+  const ActiveSensorProfile profile;
+  const Ranger ranger(profile.calibrated());
+  const geometry::Pose2 T_head_projection(profile.sensor.origin.position(), 0.0);
+  struct View {
+    double rho, phi, rate;
+  };
+  for (const View& view :
+       {View{0.8, 0.6, 0.8}, {1.3, 0.0, 0.0}, {1.5, -0.5, 0.8}, {2.2, 0.0, 0.0}}) {
+    const Eigen::Vector2d normal(std::cos(view.phi), std::sin(view.phi));
+    const Eigen::Vector2d along(-normal.y(), normal.x());
+    world::World world;
+    const std::size_t card = world.addMaterial({"card", 1.0});
+    world.add(world::WorldSegment{
+        {view.rho * normal + 4.0 * along, view.rho * normal - 4.0 * along}, 0.0, 2.0, card});
+    const geometry::PolarLine wall{view.rho, view.phi, Eigen::Matrix2d::Zero()};
+    double nees = 0.0;
+    constexpr int kRuns = 200;
+    for (int run = 1; run <= kRuns; ++run) {
+      ActiveSensor sensor(profile, static_cast<std::uint64_t>(run));
+      if (view.rate != 0.0) sensor.command({Mode::kRate, 0.0, view.rate});
+      const auto raw = sensor.advance(world, 2 * kScan, stillAt).back();
+      lines::LineExtractor extractor;
+      const auto& segments = extractor.extract(ranger.range(raw).scan);
+      ASSERT_EQ(segments.size(), 1u);
+      const geometry::Pose2 T_map_head(0.0, 0.0, raw.head_angles[0]);
+      const auto line = geometry::transform(T_map_head * T_head_projection, segments[0].line);
+      const Eigen::Vector2d error = geometry::difference(line, wall);
+      nees += error.dot(line.covariance.ldlt().solve(error)) / kRuns;
+    }
+    EXPECT_NEAR(nees, 2.0, 0.45) << view.rho << " " << view.phi;
   }
 }
 

@@ -19,9 +19,9 @@ CalibrationRecording readCsv(const std::string& text) {
 
 TEST(CalibrationRecording, GathersRowsByPlacement) {
   const auto recording = readCsv(kHeader +
-                                  "7,plain,1,40,2e-8,1e-3,,\n"
-                                  "3,striped,1,20,3e-9,-2e-3,-0.5,0.06\n"
-                                  "2,plain,1,40,2.5e-8,1.1e-3,,\n");
+                                 "7,plain,1,40,2e-8,1e-3,,\n"
+                                 "3,striped,1,20,3e-9,-2e-3,-0.5,0.06\n"
+                                 "2,plain,1,40,2.5e-8,1.1e-3,,\n");
   ASSERT_EQ(recording.placements.size(), 2U);
   const TargetPlacement& plain = recording.placements[0];
   EXPECT_FALSE(plain.stripes);

@@ -46,7 +46,7 @@ struct CalibrationRecording {
 };
 
 /// Throws config::Error with file, line and column; also for what that sensor cannot have recorded:
-/// a beam it does not have, an image beyond its detector.
+/// a beam it does not have, an image beyond its detector, a target behind its scan's origin.
 CalibrationRecording readRecording(const config::CsvTable& table, const SensorParameters& sensor);
 
 /// As CSV, to the last digit.

@@ -57,7 +57,10 @@ class Ranger {
   /// range limits, or than the table knows, is too near (−Inf) or nothing (+Inf).
   RangeReading read(std::size_t beam, const Photocurrents& currents) const;
 
-  /// Throws scan::InvalidScan where the number of currents or of head angles is not that of the
+  /// Of a whole scan. The variance of a reading is taken at its neighbours' median image position
+  /// where that is of the same surface: taken at its own, a range that errs to the far side would
+  /// be believed less than one that errs to the near side, and lines would lie too near. Throws
+  /// scan::InvalidScan where the number of currents or of head angles is not that of the
   /// beams, or a head angle is not finite.
   RangeScan range(const RawScan& raw) const;
 
@@ -65,6 +68,9 @@ class Ranger {
   const std::shared_ptr<const scan::ScanGeometry>& geometry() const { return geometry_; }
 
  private:
+  double sigma(double current) const;
+  double variance(std::size_t beam, double current, double image_position) const;
+  std::vector<double> imagePositions(const RawScan& raw) const;
   void check(const RawScan& raw) const;
 
   Calibration calibration_;
