@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <poll.h>
+#include <ros/init.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -117,5 +119,11 @@ int main(int argc, char** argv) {
                  "what it is; by default as config/sensors/synchronised_scan.yaml");
   program.option("--faults", job.faults, "WORDS", "faults from the start on, parted by semicolons");
   program.option("--seed", job.seed, "N", "of all noise and faults");
-  return program.run(argc, argv, [&] { return emulate(job); });
+  // A launch file adds words of its own.
+  ros::V_string words;
+  ros::removeROSArgs(argc, argv, words);
+  std::vector<const char*> arguments;
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  return program.run(static_cast<int>(arguments.size()), arguments.data(),
+                     [&] { return emulate(job); });
 }
