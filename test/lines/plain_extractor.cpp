@@ -1,5 +1,6 @@
 #include "sightline/lines/plain_extractor.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -59,7 +60,8 @@ TEST(PlainExtractor, FollowsAWallWhileTheHeadTurns) {
 TEST(PlainExtractor, StartsAnewWhereAnObservationIsNotValidated) {
   test::Gauss gauss(1);
   scan::Scan scan = plainScan({1.5, 0.0, Eigen::Matrix2d::Zero()}, 0.0, 1e-6, gauss);
-  for (std::size_t i = 128; i < 256; ++i) scan.ranges[i] += 0.5;
+  const scan::Scan behind = plainScan({2.0, 0.0, Eigen::Matrix2d::Zero()}, 0.0, 1e-6, gauss);
+  std::copy(behind.ranges.begin() + 128, behind.ranges.end(), scan.ranges.begin() + 128);
   LineExtractorConfig config;
   config.gate = 5.0;
   PlainExtractor extractor(config);
@@ -67,7 +69,8 @@ TEST(PlainExtractor, StartsAnewWhereAnObservationIsNotValidated) {
   ASSERT_EQ(segments.size(), 2u);
   EXPECT_EQ(segments[0].last_beam, 127u);
   EXPECT_EQ(segments[1].first_beam, 128u);
-  EXPECT_NEAR(segments[0].line.rho, 1.5, 1e-3);
+  EXPECT_NEAR(segments[0].line.rho, 1.5, 1e-5);
+  EXPECT_NEAR(segments[1].line.rho, 2.0, 1e-5);
 }
 
 TEST(PlainExtractor, SkipsReturnsThatAreNotValid) {
