@@ -8,6 +8,7 @@
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
+#include "nodes/sync_scan_driver_config.h"
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/scanner_profile.h"
 
@@ -48,6 +49,8 @@ int main() {
              "Parameters of the node. `config/carriers` holds those that depend on who carries the "
              "scanner.",
              describe<nodes::LaserOdometryNodeConfig>());
+  const nodes::SyncScanDriverConfig driver;
+  printTable("sync_scan_driver", "Parameters of the node.", describe(driver));
   printTable("sim_sensor", "Parameters of the node.", describe<nodes::SimSensorConfig>());
   printTable("sim_sensor: scanners",
              "Parameters of one scanner, below `~scanners/NAME` of sim_sensor.",

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <diagnostic_updater/update_functions.h>
+
+#include "sightline/driver/device_session.h"
+
+namespace sightline::bridge {
+
+/// How a device session does, in diagnostics, by the keys of REP-138, and in the log whenever it
+/// changes.
+class DeviceDiagnostics {
+ public:
+  /// Registers with the updater. All of them have to live as long.
+  DeviceDiagnostics(const driver::SessionConfig& config, const driver::DeviceSession& session,
+                    double scan_rate, diagnostic_updater::Updater& updater);
+
+  /// A scan was published; from any thread.
+  void tick() { frequency_.tick(); }
+
+ private:
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void summarise(const driver::SessionStatus& now,
+                 diagnostic_updater::DiagnosticStatusWrapper& status);
+  void log(const driver::SessionStatus& now);
+
+  driver::SessionConfig config_;
+  const driver::DeviceSession& session_;
+  double scan_rate_;  // [Hz], for the frequency's own use
+  diagnostic_updater::FrequencyStatus frequency_;
+  driver::SessionStatus before_;  // at the last report
+};
+
+}  // namespace sightline::bridge

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "sightline/config/fields.h"
+#include "sightline/driver/conversation.h"
+#include "sightline/driver/serial_line.h"
+
+namespace sightline::driver {
+
+struct SessionConfig {
+  std::string port = "/dev/ttyUSB0";
+  int baud_rate = 460800;  ///< [bit/s]
+  ClockConfig clock;
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// How a session stands.
+struct SessionStatus {
+  Trouble trouble;
+  bool is_scanning = false;
+  std::optional<Identity> device;
+  std::size_t connections = 0;  ///< openings of the port
+  ConversationCounts counts;
+  FrameParser::Counts line;
+  double latency = 0.0;   ///< [s]
+  double drift = 0.0;     ///< of the device clock: host seconds a device second, less one
+  std::size_t bytes = 0;  ///< received
+};
+
+/// A device at a serial port, from now until the end of the object: opens the port whenever there
+/// is one, and keeps the conversation going. It runs in a thread of its own.
+class DeviceSession {
+ public:
+  /// `on_scan` is called by the session's thread; a scan is good until it returns. Serial number
+  /// and samples are the calibration's.
+  DeviceSession(const SessionConfig& config, const std::string& serial, std::size_t samples,
+                Conversation::OnScan on_scan);
+  /// Tells the device to stop.
+  ~DeviceSession();
+  DeviceSession(const DeviceSession&) = delete;
+  DeviceSession& operator=(const DeviceSession&) = delete;
+
+  void command(const triangulation::HeadCommand& command);
+  SessionStatus status() const;
+
+ private:
+  void open();
+  void read();
+  void onTick();
+  void send();
+  void updateStatus();
+
+  SessionConfig config_;
+  boost::asio::io_context context_;
+  SerialLine line_;
+  boost::asio::steady_timer timer_;
+  Conversation conversation_;
+  std::array<std::uint8_t, 4096> buffer_{};
+  Trouble port_trouble_;
+  std::size_t connections_ = 0;
+  std::size_t bytes_ = 0;
+
+  mutable std::mutex mutex_;
+  SessionStatus status_;  // the other threads' copy
+  std::thread thread_;
+};
+
+}  // namespace sightline::driver

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "sightline/triangulation/head_command.h"
+
+namespace sightline::driver {
+
+/// The joint of the sensor head and the frames about it, by their names in a robot description.
+struct HeadFrames {
+  std::string joint;
+  std::string mount;       ///< the head turns about its z axis
+  std::string head;        ///< the same frame, turned
+  std::string projection;  ///< hangs on the head by a fixed joint, parallel to it
+};
+
+/// What a robot description says of them.
+struct HeadJoint {
+  /// Lower and upper end, and the largest rate; the rest is as for any servo of this sensor.
+  triangulation::HeadLimits limits;
+  /// Of the projection frame in the head's [m].
+  Eigen::Vector2d scan_origin = Eigen::Vector2d::Zero();
+
+  /// `source` is for messages: a file or parameter. Throws config::Error with the joint or link
+  /// that is missing or does not fit.
+  static HeadJoint fromUrdf(const std::string& xml, const HeadFrames& frames,
+                            const std::string& source);
+};
+
+}  // namespace sightline::driver

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+namespace sightline::driver {
+
+/// Why there are no scans.
+enum class Fault {
+  kNone,
+  kNoSuchPort,
+  kNoPermission,
+  kPortBusy,
+  kNotASerialPort,
+  kPortFailed,
+  kSilentDevice,
+  kGarbage,
+  kWrongDevice,
+  kWrongVersion,
+  kWrongSerial,
+  kWrongSamples,
+};
+
+struct Trouble {
+  Fault fault = Fault::kNone;
+  std::string text;  ///< the name of the fault and what is known of it; empty if there is none
+};
+
+/// The fault by its name alone, as the text begins.
+const char* nameOf(Fault fault);
+/// `NAME: detail`.
+Trouble trouble(Fault fault, const std::string& detail);
+
+}  // namespace sightline::driver

@@ -1,0 +1,126 @@
+#include "sightline/driver/clock_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace sightline::driver {
+
+namespace {
+
+constexpr double kOtherClock = 1.0;  // [s]: no delay is so long, no drift so fast
+
+// Whether b lies on or above the straight line from a to c.
+template <class Point>
+bool isAbove(const Point& a, const Point& b, const Point& c) {
+  return (b.ahead - a.ahead) * (c.device - a.device) >= (c.ahead - a.ahead) * (b.device - a.device);
+}
+
+// Of points in the order of their device times.
+template <class Points, class Point = typename Points::value_type>
+std::vector<Point> lowerHull(const Points& points) {
+  std::vector<Point> hull;
+  for (const Point& point : points) {
+    while (hull.size() > 1 && isAbove(hull[hull.size() - 2], hull.back(), point)) hull.pop_back();
+    hull.push_back(point);
+  }
+  return hull;
+}
+
+// Of the edge of a hull that is below or above `device`: of all lines below the points the one that
+// is closest in the sum, if that is their mean.
+template <class Point>
+double slopeAt(const std::vector<Point>& hull, double device) {
+  for (std::size_t i = 1; i < hull.size(); ++i) {
+    if (hull[i].device < device && i + 1 < hull.size()) continue;
+    const double width = hull[i].device - hull[i - 1].device;
+    return width > 0.0 ? (hull[i].ahead - hull[i - 1].ahead) / width : 0.0;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+void ClockConfig::visit(config::FieldVisitor& visitor) {
+  visitor.number("window", window,
+                 {"s", {1.0, 1000.0}, "the device clock is estimated from messages of this time"});
+  visitor.number("max_drift", max_drift,
+                 {"ppm", {0.0, 1e4}, "no device clock is faster or slower by more"});
+  visitor.number("latency", latency,
+                 {"s",
+                  {-1.0, 1.0},
+                  "constant part of a message's delay; negative: measured, as half of a ping's"});
+}
+
+// Against the last arrival: 32 bits are more than an hour.
+double ClockEstimator::deviceSeconds(std::uint32_t device) const {
+  return last_seconds_ + 1e-6 * static_cast<std::int32_t>(device - last_device_);
+}
+
+void ClockEstimator::observeArrival(std::uint32_t device, std::int64_t host) {
+  if (!arrivals_.empty()) {
+    const double since = 1e-9 * static_cast<double>(host - origin_);
+    // What the bits do not say after a long silence the host's clock does.
+    const double wraps = std::round((since - deviceSeconds(device)) / (1e-6 * 4294967296.0));
+    const double seconds = deviceSeconds(device) + wraps * (1e-6 * 4294967296.0);
+    const double ahead = since - seconds;
+    if (std::abs(ahead - aheadAt(seconds)) > kOtherClock) {
+      ++resets_;
+      reset();
+    } else if (seconds >= arrivals_.back().device) {
+      last_device_ = device;
+      last_seconds_ = seconds;
+      arrivals_.push_back({seconds, ahead});
+      return fitBelowArrivals();
+    } else {
+      return;
+    }
+  }
+  origin_ = host;
+  last_device_ = device;
+  arrivals_.push_back({0.0, 0.0});
+}
+
+void ClockEstimator::observeDeparture(std::int64_t host, std::uint32_t device) {
+  if (arrivals_.empty()) return;
+  const double seconds = deviceSeconds(device);
+  departures_.push_back({seconds, 1e-9 * static_cast<double>(host - origin_) - seconds});
+}
+
+void ClockEstimator::reset() {
+  arrivals_.clear();
+  departures_.clear();
+  last_seconds_ = slope_ = ahead_ = held_back_ = 0.0;
+}
+
+void ClockEstimator::forgetBefore(double device) {
+  while (arrivals_.size() > 1 && arrivals_.front().device < device) arrivals_.pop_front();
+  while (!departures_.empty() && departures_.front().device < device) departures_.pop_front();
+}
+
+void ClockEstimator::fitBelowArrivals() {
+  forgetBefore(last_seconds_ - config_.window);
+  double mean = 0.0;
+  for (const Point& point : arrivals_) mean += point.device / static_cast<double>(arrivals_.size());
+  const double limit = 1e-6 * config_.max_drift;
+  slope_ = std::clamp(slopeAt(lowerHull(arrivals_), mean), -limit, limit);
+  const auto offset = [this](const Point& point) { return point.ahead - slope_ * point.device; };
+  ahead_ = offset(arrivals_.front());
+  for (const Point& point : arrivals_) ahead_ = std::min(ahead_, offset(point));
+  if (departures_.empty()) return;
+  double latest = offset(departures_.front());
+  for (const Point& point : departures_) latest = std::max(latest, offset(point));
+  held_back_ = ahead_ - latest;
+}
+
+std::optional<std::int64_t> ClockEstimator::hostTime(std::uint32_t device) const {
+  if (arrivals_.empty()) return std::nullopt;
+  const double seconds = deviceSeconds(device);
+  return origin_ + std::llround(1e9 * (seconds + aheadAt(seconds) - latency()));
+}
+
+double ClockEstimator::latency() const {
+  return config_.latency >= 0.0 ? config_.latency : std::max(0.0, 0.5 * held_back_);
+}
+
+}  // namespace sightline::driver

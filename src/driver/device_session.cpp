@@ -1,0 +1,100 @@
+#include "sightline/driver/device_session.h"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/post.hpp>
+
+namespace sightline::driver {
+
+namespace {
+
+constexpr std::chrono::milliseconds kTick{20};
+
+}  // namespace
+
+void SessionConfig::visit(config::FieldVisitor& visitor) {
+  visitor.text("port", port, "path of the serial port");
+  visitor.integer("baud_rate", baud_rate, {"bit/s", {9600.0, 4e6}, "of the serial line"});
+  visitor.group("clock", clock);
+}
+
+DeviceSession::DeviceSession(const SessionConfig& config, const std::string& serial,
+                             std::size_t samples, Conversation::OnScan on_scan)
+    : config_(config),
+      line_(context_),
+      timer_(context_),
+      conversation_({serial, samples, config.baud_rate, config.clock}, std::move(on_scan)) {
+  boost::asio::post(context_, [this] { onTick(); });
+  thread_ = std::thread([this] { context_.run(); });
+}
+
+DeviceSession::~DeviceSession() {
+  boost::asio::post(context_, [this] {
+    const auto& bytes = conversation_.stop(Moment::now());
+    line_.write({bytes.data(), bytes.size()});
+    context_.stop();
+  });
+  thread_.join();
+}
+
+void DeviceSession::command(const triangulation::HeadCommand& command) {
+  boost::asio::post(context_, [this, command] {
+    conversation_.command(command, Moment::now());
+    send();
+  });
+}
+
+SessionStatus DeviceSession::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+void DeviceSession::open() {
+  port_trouble_ = line_.open(config_.port, config_.baud_rate);
+  if (!line_.isOpen()) return;
+  ++connections_;
+  conversation_.open(Moment::now());
+  read();
+}
+
+void DeviceSession::read() {
+  line_.port().async_read_some(boost::asio::buffer(buffer_),
+                               [this](const boost::system::error_code& error, std::size_t size) {
+                                 if (error) {  // the cable was pulled: the next tick looks for it
+                                   port_trouble_ = trouble(Fault::kPortFailed,
+                                                           config_.port + ": " + error.message());
+                                   return line_.close();
+                                 }
+                                 bytes_ += size;
+                                 conversation_.receive({buffer_.data(), size}, Moment::now());
+                                 read();
+                               });
+}
+
+void DeviceSession::onTick() {
+  if (!line_.isOpen()) open();
+  send();
+  updateStatus();
+  timer_.expires_after(kTick);
+  timer_.async_wait([this](const boost::system::error_code&) { onTick(); });
+}
+
+void DeviceSession::send() {
+  if (!line_.isOpen()) return;
+  const auto& bytes = conversation_.send(Moment::now());
+  line_.write({bytes.data(), bytes.size()});
+}
+
+void DeviceSession::updateStatus() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.is_scanning = line_.isOpen() && conversation_.isScanning(Moment::now());
+  status_.trouble = line_.isOpen() ? conversation_.currentTrouble() : port_trouble_;
+  status_.device = conversation_.device();
+  status_.connections = connections_;
+  status_.counts = conversation_.counts();
+  status_.line = conversation_.lineCounts();
+  status_.latency = conversation_.clock().latency();
+  status_.drift = conversation_.clock().drift();
+  status_.bytes = bytes_;
+}
+
+}  // namespace sightline::driver

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "sightline/bridge/active_sensor_topics.h"
+#include "sightline/config/fields.h"
+#include "sightline/driver/device_session.h"
+
+namespace sightline::nodes {
+
+/// Parameters of the node sync_scan_driver.
+struct SyncScanDriverConfig {
+  driver::SessionConfig session;
+  std::string calibration;  ///< path
+  std::string profile;      ///< path
+  std::string urdf;         ///< path
+  bridge::ActiveSensorNames names;
+
+  void visit(config::FieldVisitor& visitor) {
+    session.visit(visitor);
+    visitor.text("calibration", calibration,
+                 "path of the device's calibration file; empty: the profile's");
+    visitor.text("profile", profile,
+                 "path of the sensor's profile; empty: as config/sensors/synchronised_scan.yaml");
+    visitor.text("urdf", urdf,
+                 "path of the robot description; empty: the parameter robot_description");
+    names.visit(visitor);
+  }
+};
+
+}  // namespace sightline::nodes

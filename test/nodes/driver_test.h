@@ -1,0 +1,155 @@
+#pragma once
+
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "nodes/recorder.h"
+#include "sightline/simulation/active_sensor_device.h"
+#include "sightline/simulation/emulated_device.h"
+#include "sightline/simulation/scanner.h"
+#include "temporary_folder.h"
+
+namespace sightline::test {
+
+/// The node sync_scan_driver in a namespace of its own, ended with the object.
+class DriverProcess {
+ public:
+  /// Parameters as on the command line, such as `_port:=PATH`; `before` goes ahead of the program.
+  DriverProcess(const std::string& ns, const std::vector<std::string>& parameters,
+                std::vector<std::string> before = {}) {
+    std::vector<std::string> words = std::move(before);
+    words.push_back(SIGHTLINE_PROGRAMS "/sync_scan_driver");
+    words.push_back("__ns:=" + ns);
+    words.insert(words.end(), parameters.begin(), parameters.end());
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    process_ = fork();
+    if (process_ != 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    execvp(arguments[0], arguments.data());
+    std::_Exit(127);
+  }
+  ~DriverProcess() {
+    kill(process_, SIGINT);
+    waitpid(process_, nullptr, 0);
+  }
+  DriverProcess(const DriverProcess&) = delete;
+  DriverProcess& operator=(const DriverProcess&) = delete;
+
+ private:
+  pid_t process_ = -1;
+};
+
+inline bool comesTrue(const std::function<bool()>& condition) {
+  for (int i = 0; i < 2000 && ros::ok(); ++i) {
+    if (condition()) return true;
+    ros::WallDuration(0.01).sleep();
+  }
+  return false;
+}
+
+inline std::unique_ptr<simulation::ActiveSensorDevice> deviceInLivingRoom() {
+  return std::make_unique<simulation::ActiveSensorDevice>(
+      simulation::ActiveSensorProfile{},
+      world::World::readFile(SIGHTLINE_SOURCE_DIR "/config/worlds/living_room.yaml"),
+      simulation::inSpace({-1.5, 1.0, 2.5}), 1);
+}
+
+/// The latest status of every part of every node.
+class Diagnostics {
+ public:
+  std::string text(const std::string& name) const {
+    const auto status = find(name);
+    return status ? status->message : "";
+  }
+  std::string value(const std::string& name, const std::string& key) const {
+    const auto status = find(name);
+    if (!status) return "";
+    for (const auto& pair : status->values) {
+      if (pair.key == key) return pair.value;
+    }
+    return "";
+  }
+  std::string hardware(const std::string& name) const {
+    const auto status = find(name);
+    return status ? status->hardware_id : "";
+  }
+
+ private:
+  std::optional<diagnostic_msgs::DiagnosticStatus> find(const std::string& name) const {
+    std::optional<diagnostic_msgs::DiagnosticStatus> latest;
+    for (const auto& array : recorder_.all()) {
+      for (const auto& status : array.status) {
+        if (status.name == name) latest = status;
+      }
+    }
+    return latest;
+  }
+  Recorder<diagnostic_msgs::DiagnosticArray> recorder_{"/diagnostics"};
+};
+
+/// Emulated devices, the drivers that look for them, and what is said of them.
+class DriverTest : public ::testing::Test {
+ protected:
+  /// A device at a port, and its driver in the namespace of the same name.
+  void start(const std::string& name, const simulation::FirmwareConfig& firmware = {}) {
+    device_.emplace(folder_.path(name), firmware, deviceInLivingRoom(), 1,
+                    [this](const simulation::DeliveredScan& scan) { remember(scan); });
+    drive(name);
+  }
+  void drive(const std::string& name) {
+    drivers_.push_back(std::make_unique<DriverProcess>(
+        name, std::vector<std::string>{"_port:=" + folder_.path(name)}));
+  }
+  void expectStatus(const std::string& ns, const std::string& text) {
+    const std::string name = ns + "/sync_scan_driver: device";
+    EXPECT_TRUE(comesTrue([&] { return diagnostics_.text(name).find(text) == 0; }))
+        << ns << ": " << diagnostics_.text(name);
+  }
+
+  void expectValue(const std::string& ns, const std::string& key, const std::string& value) {
+    const std::string name = ns + "/sync_scan_driver: device";
+    EXPECT_TRUE(comesTrue([&] { return diagnostics_.value(name, key) == value; }))
+        << ns << ": " << key << " " << diagnostics_.value(name, key);
+  }
+
+  void remember(const simulation::DeliveredScan& scan) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sent_.push_back(scan);
+  }
+  // The scan that was sent nearest to a stamp.
+  std::optional<simulation::DeliveredScan> sentAt(const ros::Time& stamp) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const simulation::DeliveredScan& scan : sent_) {
+      if (std::abs(1e-9 * static_cast<double>(scan.sent.scan.stamp) - stamp.toSec()) < 0.03) {
+        return scan;
+      }
+    }
+    return std::nullopt;
+  }
+
+  test::TemporaryFolder folder_;
+  Diagnostics diagnostics_;
+  mutable std::mutex mutex_;
+  std::vector<simulation::DeliveredScan> sent_;
+  std::optional<simulation::EmulatedDevice> device_;
+  std::vector<std::unique_ptr<DriverProcess>> drivers_;
+};
+
+}  // namespace sightline::test
