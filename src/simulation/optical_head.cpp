@@ -68,6 +68,7 @@ std::vector<OpticalHead::Spot> OpticalHead::illuminate(const world::World& world
                                                        double angle) const {
   const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
   const Eigen::Vector2d across(-along.y(), along.x());
+  const auto lens = geometry_.lens(angle);
   const Eigen::Vector3d along_map = T_map_projection.linear() * inPlane(along);
   const Eigen::Vector3d across_map = T_map_projection.linear() * inPlane(across);
   const Eigen::Vector3d origin_map = T_map_projection.translation();
@@ -80,7 +81,7 @@ std::vector<OpticalHead::Spot> OpticalHead::illuminate(const world::World& world
     const auto hit = world.cast({source_map, along_map}, shortlist);
     if (!hit) continue;
     const Eigen::Vector2d point = ray.offset * across + hit->range * along;
-    const double p = geometry_.imagePosition(point, angle);
+    const double p = geometry_.imagePosition(point, lens);
     if (std::abs(p) > 0.5 * geometry_.intrinsics().detector_length) continue;
     spots.push_back(
         {*hit, source_map, source_map + hit->range * along_map, full_current_ * ray.share, p});
@@ -108,7 +109,7 @@ SpotImage OpticalHead::look(const world::World& world, const Eigen::Isometry3d& 
   SpotImage image;
   const auto spots = illuminate(world, T_map_projection, angle);
   if (spots.empty()) return image;
-  const Eigen::Vector3d lens_map = T_map_projection * inPlane(geometry_.lensCentre(angle));
+  const Eigen::Vector3d lens_map = T_map_projection * inPlane(geometry_.lens(angle).centre);
   const world::Ray axis{lens_map, (spots.front().point_map - lens_map).normalized()};
   double half_width = kTolerance;
   for (const Spot& spot : spots) {

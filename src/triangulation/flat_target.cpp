@@ -29,20 +29,20 @@ double powerBeyond(double reach, double width) {
 
 SpotOnTarget spotOnTarget(const ProjectionGeometry& geometry, double depth, double angle,
                           double beam_width) {
-  const double axis = geometry.imagePosition(meet(depth, angle, 0.0), angle);
-  const Eigen::Vector2d lens = geometry.lensCentre(angle);
+  const auto lens = geometry.lens(angle);
+  const double axis = geometry.imagePosition(meet(depth, angle, 0.0), lens);
   // Three rays with the variance of a Gaussian that ends at two standard deviations.
   const double node = std::sqrt(3.0 * 0.7737) * 0.25 * beam_width;
   double light = 0.0;
   double moment = 0.0;
   for (const auto& [offset, share] : {std::pair{-node, 1.0}, {0.0, 4.0}, {node, 1.0}}) {
     const Eigen::Vector2d spot = meet(depth, angle, offset);
-    const double current = share * gathered(spot, lens);
+    const double current = share * gathered(spot, lens.centre);
     light += current;
-    moment += current * (geometry.imagePosition(spot, angle) - axis);
+    moment += current * (geometry.imagePosition(spot, lens) - axis);
   }
   const auto reach = [&](double offset) {
-    return std::abs(geometry.imagePosition(meet(depth, angle, offset), angle) - axis);
+    return std::abs(geometry.imagePosition(meet(depth, angle, offset), lens) - axis);
   };
   return {moment / light, std::max(reach(0.5 * beam_width), reach(-0.5 * beam_width))};
 }

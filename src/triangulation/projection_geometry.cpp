@@ -16,14 +16,10 @@ const Intrinsics& validated(const Intrinsics& intrinsics) {
 ProjectionGeometry::ProjectionGeometry(const Intrinsics& intrinsics)
     : intrinsics_(validated(intrinsics)) {}
 
-Eigen::Vector2d ProjectionGeometry::opticalAxis(double angle) const {
-  const double axis = angle + intrinsics_.vergence;
-  return {std::cos(axis), std::sin(axis)};
-}
-
-Eigen::Vector2d ProjectionGeometry::lensCentre(double angle) const {
-  return Eigen::Vector2d(0.0, -intrinsics_.baseline) -
-         intrinsics_.lens_distance * opticalAxis(angle);
+ProjectionGeometry::Lens ProjectionGeometry::lens(double angle) const {
+  const double direction = angle + intrinsics_.vergence;
+  const Eigen::Vector2d axis(std::cos(direction), std::sin(direction));
+  return {Eigen::Vector2d(0.0, -intrinsics_.baseline) - intrinsics_.lens_distance * axis, axis};
 }
 
 ProjectionGeometry::FromLens ProjectionGeometry::fromLens(double range, double angle) const {
@@ -38,11 +34,10 @@ double ProjectionGeometry::imagePosition(double range, double angle) const {
   return intrinsics_.focal_length * point.across / point.along;
 }
 
-double ProjectionGeometry::imagePosition(const Eigen::Vector2d& point, double angle) const {
-  const Eigen::Vector2d axis = opticalAxis(angle);
-  const Eigen::Vector2d offset = point - lensCentre(angle);
-  const double across = axis.x() * offset.y() - axis.y() * offset.x();
-  return intrinsics_.focal_length * across / axis.dot(offset);
+double ProjectionGeometry::imagePosition(const Eigen::Vector2d& point, const Lens& lens) const {
+  const Eigen::Vector2d offset = point - lens.centre;
+  const double across = lens.axis.x() * offset.y() - lens.axis.y() * offset.x();
+  return intrinsics_.focal_length * across / lens.axis.dot(offset);
 }
 
 double ProjectionGeometry::range(double image_position, double angle) const {

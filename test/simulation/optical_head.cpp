@@ -41,7 +41,7 @@ TEST(OpticalHead, CurrentFallsWithTheSquareOfTheRangeFromTheLens) {
   for (const double depth : {0.75, 1.5, 2.5}) {
     Cards cards;
     cards.add({depth, 2.0}, {depth, -2.0}, 0.6);
-    const Eigen::Vector2d way = Eigen::Vector2d(depth, 0.0) - head.geometry().lensCentre(0.0);
+    const Eigen::Vector2d way = Eigen::Vector2d(depth, 0.0) - head.geometry().lens(0.0).centre;
     const double cosine = way.x() / way.norm();
     const double share = 0.25 * optics.lens_diameter * optics.lens_diameter / way.squaredNorm();
     const double expected = optics.laser_power * optics.responsivity * 0.6 * cosine * share;

@@ -26,17 +26,17 @@ TEST(FlatTarget, PowerBeyondAnEdgeIsThatOfACutGaussian) {
 
 // The spot of many rays, each to its own image.
 double centroidShift(const ProjectionGeometry& geometry, double depth, double angle, double width) {
-  const Eigen::Vector2d lens = geometry.lensCentre(angle);
+  const auto lens = geometry.lens(angle);
   double light = 0.0;
   double moment = 0.0;
   for (double offset = -0.5 * width; offset <= 0.5 * width; offset += 1e-3 * width) {
     const Eigen::Vector2d spot(depth, (depth * std::sin(angle) + offset) / std::cos(angle));
-    const Eigen::Vector2d way = spot - lens;
+    const Eigen::Vector2d way = spot - lens.centre;
     const double cosine = way.x() / way.norm();
     const double current =
         std::exp(-8.0 * std::pow(offset / width, 2)) * cosine / way.squaredNorm();
     light += current;
-    moment += current * geometry.imagePosition(spot, angle);
+    moment += current * geometry.imagePosition(spot, lens);
   }
   return moment / light - geometry.imagePosition(depth / std::cos(angle), angle);
 }

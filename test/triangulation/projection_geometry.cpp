@@ -75,7 +75,7 @@ RC_GTEST_PROP(ProjectionGeometry, TheLightGoesStraightThroughTheLens, ()) {
   const double x = sight.range * std::sin(theta);
   const double z = sight.range * std::cos(theta);
   RC_ASSERT(std::abs((x - d + a) / z - std::tan(theta - phi - gamma)) < 1e-9);
-  const Eigen::Vector2d lens = geometry.lensCentre(sight.angle);
+  const Eigen::Vector2d lens = geometry.lens(sight.angle).centre;
   RC_ASSERT(std::abs(lens.x() + s * std::cos(theta - gamma)) < 1e-12);
   RC_ASSERT(std::abs(-lens.y() - (d - s * std::sin(theta - gamma))) < 1e-12);
 }
@@ -88,7 +88,7 @@ RC_GTEST_PROP(ProjectionGeometry, APointOnTheBeamHasTheImageOfItsRange, ()) {
   RC_ASSERT(
       (point - sight.range * Eigen::Vector2d(std::cos(sight.angle), std::sin(sight.angle))).norm() <
       1e-9);
-  RC_ASSERT(std::abs(geometry.imagePosition(point, sight.angle) - p) < 1e-12);
+  RC_ASSERT(std::abs(geometry.imagePosition(point, geometry.lens(sight.angle)) - p) < 1e-12);
 }
 
 RC_GTEST_PROP(ProjectionGeometry, JacobiansAreThoseOfTheFunctions, ()) {

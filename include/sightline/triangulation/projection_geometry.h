@@ -25,8 +25,6 @@ class ProjectionGeometry {
 
   /// p [m] of the point at `range` [m] > 0 along the beam.
   double imagePosition(double range, double angle) const;
-  /// p [m] of any point while the beam points to `angle`: of a ray beside the beam's axis, say.
-  double imagePosition(const Eigen::Vector2d& point, double angle) const;
   /// [m] along the beam; infinite or negative for an image that no point ahead can have.
   double range(double image_position, double angle) const;
   /// Eqs 6-9: range · (cos θ, sin θ).
@@ -34,10 +32,14 @@ class ProjectionGeometry {
   /// Along straight ahead [m]: z of pears.
   double depth(double image_position, double angle) const;
 
-  /// Centre of the lens [m], which moves on an arc about q.
-  Eigen::Vector2d lensCentre(double angle) const;
-  /// Unit vector of the lens' optical axis, outwards.
-  Eigen::Vector2d opticalAxis(double angle) const;
+  /// The lens while the beam points to `angle`.
+  struct Lens {
+    Eigen::Vector2d centre;  ///< [m], on an arc about q
+    Eigen::Vector2d axis;    ///< unit vector of the optical axis, outwards
+  };
+  Lens lens(double angle) const;
+  /// p [m] of any point, of a ray beside the beam's axis, say.
+  double imagePosition(const Eigen::Vector2d& point, const Lens& lens) const;
 
   /// ∂r/∂p: triangulation gain along the beam, never positive.
   double rangeGain(double image_position, double angle) const;
