@@ -11,8 +11,15 @@ namespace sightline::bridge {
 
 namespace {
 
+constexpr double kLongestSweep = 60.0;  // [s]
+
 void checkMessage(const sensor_msgs::LaserScan& message) {
   if (message.header.stamp.isZero()) throw scan::InvalidScan("a stamp of zero");
+  const double sweep =
+      static_cast<double>(message.time_increment) * static_cast<double>(message.ranges.size());
+  if (std::abs(sweep) > kLongestSweep) {
+    throw scan::InvalidScan(fmt::format("a sweep of {:.4g} s", sweep));
+  }
   if (!message.intensities.empty() && message.intensities.size() != message.ranges.size()) {
     throw scan::InvalidScan(fmt::format("{} intensities for {} ranges", message.intensities.size(),
                                         message.ranges.size()));

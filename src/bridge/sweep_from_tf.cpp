@@ -1,5 +1,7 @@
 #include "sightline/bridge/sweep_from_tf.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 
 #include "sightline/bridge/pose_conversion.h"
@@ -10,8 +12,8 @@ namespace sightline::bridge {
 
 namespace {
 
-// Older than this, the newest motion says nothing about the present one.
-const ros::Duration kOldest(0.5);
+// Older than this, the newest motion says nothing about the present one [ns].
+constexpr std::int64_t kOldest = 500'000'000;
 
 // In the sensor's own frame and in three dimensions before it is taken to the plane: that holds for
 // a sensor mounted on its head as well.
@@ -27,15 +29,15 @@ bool SweepFromTf::addMotion(scan::Scan& scan) const {
   const auto poseAt = [&](std::int64_t stamp) -> std::optional<geometry::Pose2> {
     if (stamp == scan.stamp) return geometry::Pose2();
     try {
-      const ros::Time newest =
-          transforms_.lookupTransform(fixed_frame_, scan.frame, ros::Time(0)).header.stamp;
-      const ros::Time wanted = timeOf(stamp);
+      const std::int64_t newest = nanoseconds(
+          transforms_.lookupTransform(fixed_frame_, scan.frame, ros::Time(0)).header.stamp);
       // A transform that never changes has no time and moves nothing.
-      if (newest.isZero()) return geometry::Pose2();
-      if (wanted - newest > kOldest) return std::nullopt;
-      const ros::Time end = std::min(wanted, newest);
-      return motionBetween(transforms_, scan.frame, end - (wanted - timeOf(scan.stamp)), end,
-                           fixed_frame_);
+      if (newest == 0) return geometry::Pose2();
+      if (stamp - newest > kOldest) return std::nullopt;
+      const std::int64_t end = std::min(stamp, newest);
+      const std::int64_t start = end - (stamp - scan.stamp);
+      if (start <= 0) return std::nullopt;
+      return motionBetween(transforms_, scan.frame, timeOf(start), timeOf(end), fixed_frame_);
     } catch (const tf2::TransformException&) {
       return std::nullopt;
     }

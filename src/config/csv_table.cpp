@@ -13,6 +13,8 @@ namespace sightline::config {
 
 namespace {
 
+const char* const kByteOrderMark = "\xEF\xBB\xBF";  // what spreadsheets begin UTF-8 with
+
 std::string trimmed(const std::string& text) {
   const char* const blanks = " \t\r";
   const auto first = text.find_first_not_of(blanks);
@@ -51,6 +53,7 @@ CsvTable CsvTable::parse(const std::string& text, const std::string& source) {
   std::istringstream stream(text);
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
+    if (number == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, 3);
     line = trimmed(line);
     if (!line.empty() && line.front() != '#') table.add({number, cellsOf(line)});
   }

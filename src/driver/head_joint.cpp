@@ -1,6 +1,8 @@
 #include "sightline/driver/head_joint.h"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>
@@ -98,7 +100,23 @@ HeadJoint HeadJoint::fromUrdf(const std::string& xml, const HeadFrames& frames,
   const auto head = model->getJoint(frames.joint);
   if (!head) refuse(source, frames.joint, "no such joint");
   checkHead(*head, frames, source);
-  return {limitsOf(*head, source), scanOriginOf(*model, frames, source)};
+  return {limitsOf(*head, source), scanOriginOf(*model, frames, source), frames.projection};
+}
+
+HeadJoint HeadJoint::readFile(const std::string& path, const HeadFrames& frames) {
+  std::ifstream file(path);
+  if (!file) throw config::Error(path, 0, "", "no such file, or not readable");
+  const std::string xml{std::istreambuf_iterator<char>(file), {}};
+  return fromUrdf(xml, frames, path);
+}
+
+void HeadJoint::requireScanOrigin(const Eigen::Vector2d& expected,
+                                  const std::string& source) const {
+  constexpr double kSame = 1e-3;  // [m]
+  if ((scan_origin - expected).norm() < kSame) return;
+  refuse(source, projection,
+         fmt::format("is at ({}, {}) m on the head, by the calibration at ({}, {}) m",
+                     scan_origin.x(), scan_origin.y(), expected.x(), expected.y()));
 }
 
 }  // namespace sightline::driver

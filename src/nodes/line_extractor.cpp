@@ -46,6 +46,7 @@ class LineExtractorNode {
   std::optional<bridge::SweepFromTf> sweep_;
   std::size_t corrected_ = 0;
   std::size_t uncorrected_ = 0;
+  std::size_t uncorrected_before_ = 0;  // at the last report
 
   boost::recursive_mutex reconfigure_mutex_;
   dynamic_reconfigure::Server<LineExtractorConfig> reconfigure_;
@@ -94,9 +95,9 @@ void LineExtractorNode::onReconfigure(const LineExtractorConfig& settings) {
 void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   try {
     scan::Scan scan = reader_.read(*message);
-    monitor_.accept();
     correct(scan);
     extract(scan);
+    monitor_.accept();
   } catch (const scan::InvalidScan& fault) {
     monitor_.drop(fault.what());
   }
@@ -105,9 +106,9 @@ void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
 void LineExtractorNode::onRangeScan(const RangeScanConstPtr& message) {
   try {
     triangulation::RangeScan range_scan = range_reader_.read(*message);
-    monitor_.accept();
     correct(range_scan);
     extract(range_scan.scan);
+    monitor_.accept();
   } catch (const scan::InvalidScan& fault) {
     monitor_.drop(fault.what());
   }
@@ -130,7 +131,8 @@ void LineExtractorNode::extract(const scan::Scan& scan) {
 }
 
 void LineExtractorNode::reportMotion(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const bool fine = uncorrected_ == 0;
+  const bool fine = uncorrected_ == uncorrected_before_;
+  uncorrected_before_ = uncorrected_;
   status.summary(
       fine ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
       fine ? "motion of the scanner is corrected" : "scans without known motion");

@@ -46,7 +46,7 @@ class SimSensorNode {
 
   Simulation build() const;
   void addScanners(const config::Node& parameters);
-  void claimTopic(const std::string& topic, const config::Node& parameter);
+  void claim(const char* what, const std::string& name, const config::Node& parameter);
   void addScanner(const SimScannerConfig& config);
   void addActiveSensors(const config::Node& parameters);
   void addActiveSensor(const SimActiveSensorConfig& config);
@@ -76,7 +76,7 @@ class SimSensorNode {
   tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   std::vector<Scanner> scanners_;
   std::vector<ActiveSensor> active_sensors_;
-  std::set<std::string> scan_topics_;
+  std::set<std::string> claimed_;  // names that only one may have
   std::int64_t odometry_messages_ = 0;
   motion::StampedPose2 last_odometry_;  // stamp in time of the run
 
@@ -137,14 +137,16 @@ void SimSensorNode::addScanners(const config::Node& parameters) {
   for (const auto& [name, parameter] : parameters.at("scanners").entries()) {
     SimScannerConfig config;
     config::read(parameter, config);
-    claimTopic(config.topic, parameter);
+    claim("topic", node_.resolveName(config.topic), parameter);
+    claim("frame", config.frame, parameter);
     addScanner(config);
   }
 }
 
-void SimSensorNode::claimTopic(const std::string& topic, const config::Node& parameter) {
-  if (!scan_topics_.insert(topic).second) {
-    parameter.fail("another scanner has the topic '" + topic + "' already");
+void SimSensorNode::claim(const char* what, const std::string& name,
+                          const config::Node& parameter) {
+  if (!claimed_.insert(std::string(what) + " " + name).second) {
+    parameter.fail(std::string("another scanner has the ") + what + " '" + name + "' already");
   }
 }
 
@@ -162,16 +164,26 @@ void SimSensorNode::addActiveSensors(const config::Node& parameters) {
   for (const auto& [name, parameter] : parameters.at("active_sensors").entries()) {
     SimActiveSensorConfig config;
     config::read(parameter, config);
-    claimTopic(config.names.scan, parameter);
-    claimTopic(config.names.range_scan, parameter);
+    const bridge::ActiveSensorNames& names = config.names;
+    for (const std::string& topic : {names.scan, names.range_scan, names.head_command}) {
+      claim("topic", node_.resolveName(topic), parameter);
+    }
+    for (const std::string& frame : {names.mount_frame, names.head_frame, names.frame}) {
+      claim("frame", frame, parameter);
+    }
+    claim("joint", names.joint, parameter);
     addActiveSensor(config);
   }
 }
 
 void SimSensorNode::addActiveSensor(const SimActiveSensorConfig& config) {
-  const auto profile = config.profile.empty()
-                           ? simulation::ActiveSensorProfile{}
-                           : simulation::ActiveSensorProfile::readFile(config.profile);
+  const bridge::ActiveSensorNames& names = config.names;
+  auto profile = config.profile.empty() ? simulation::ActiveSensorProfile{}
+                                        : simulation::ActiveSensorProfile::readFile(config.profile);
+  if (!config.urdf.empty()) {
+    const driver::HeadFrames frames{names.joint, names.mount_frame, names.head_frame, names.frame};
+    profile.takeHead(driver::HeadJoint::readFile(config.urdf, frames), config.urdf);
+  }
   const std::size_t index = active_sensors_.size();
   simulation_.addActiveSensor(profile, config.mounting);
   auto topics = std::make_unique<bridge::ActiveSensorTopics>(
@@ -180,13 +192,12 @@ void SimSensorNode::addActiveSensor(const SimActiveSensorConfig& config) {
         simulation_.commandHead(index, command);
       });
   active_sensors_.push_back({config, std::move(topics)});
-  const bridge::ActiveSensorNames& names = config.names;
+  if (!config.publish_tf) return;
   broadcastStatic(config_.base_frame, names.mount_frame, config.mounting.T_base_sensor());
-  const Eigen::Vector2d origin = profile.sensor.origin.position();
-  if (config.publish_tf) {
-    broadcastStatic(names.head_frame, names.frame,
-                    Eigen::Isometry3d(Eigen::Translation3d(origin.x(), origin.y(), 0.0)));
-  }
+  // Where it is believed to be, which need not be where it is.
+  const Eigen::Vector2d origin = simulation_.calibration(index).parameters.origin.position();
+  broadcastStatic(names.head_frame, names.frame,
+                  Eigen::Isometry3d(Eigen::Translation3d(origin.x(), origin.y(), 0.0)));
 }
 
 void SimSensorNode::broadcastStatic(const std::string& parent, const std::string& child,
@@ -264,13 +275,13 @@ void SimSensorNode::publishHead(std::size_t sensor) {
   const simulation::SensorHead& head = simulation_.head(sensor);
   const bridge::ActiveSensorTopics& topics = *active_sensors_[sensor].topics;
   const std::int64_t stamp = clock_.stampOf(simulation_.time());
-  topics.publishJoint(stamp, head.reportedAngle(), head.rate());
+  topics.publishJoint(stamp, head.angle(), head.rate());
   if (!active_sensors_[sensor].config.publish_tf) return;
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = bridge::timeOf(stamp);
   transform.header.frame_id = topics.names().mount_frame;
   transform.child_frame_id = topics.names().head_frame;
-  transform.transform = bridge::toTransform({0.0, 0.0, head.reportedAngle()});
+  transform.transform = bridge::toTransform({0.0, 0.0, head.angle()});
   broadcaster_.sendTransform(transform);
 }
 

@@ -29,6 +29,7 @@ struct SimScannerConfig {
 /// Parameters of one active sensor of the node sim_sensor, below ~active_sensors/NAME.
 struct SimActiveSensorConfig {
   std::string profile;  ///< path; empty: the sensor of pears
+  std::string urdf;     ///< path
   bool publish_tf = true;
   bridge::ActiveSensorNames names;
   simulation::Mounting mounting;
@@ -36,9 +37,11 @@ struct SimActiveSensorConfig {
   void visit(config::FieldVisitor& visitor) {
     visitor.text("profile", profile,
                  "path of the sensor's profile; empty: as config/sensors/synchronised_scan.yaml");
+    visitor.text("urdf", urdf,
+                 "path of a robot description with the limits of the head; empty: the profile's");
     visitor.flag("publish_tf", publish_tf,
-                 "broadcast mount_frame to head_frame and head_frame to frame; off where "
-                 "robot_state_publisher does");
+                 "broadcast base_frame to mount_frame, that to head_frame, and that to frame; off "
+                 "where robot_state_publisher does");
     names.visit(visitor);
     mounting.visit(visitor);
   }

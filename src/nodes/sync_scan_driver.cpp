@@ -1,13 +1,10 @@
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <thread>
 
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <fmt/format.h>
 #include <ros/ros.h>
 
 #include "nodes/sync_scan_driver_config.h"
@@ -24,7 +21,6 @@ namespace sightline::nodes {
 
 namespace {
 
-constexpr double kSameOrigin = 1e-3;  // [m]
 // robot_state_publisher keeps one message waiting: what comes faster is lost to tf.
 constexpr std::chrono::milliseconds kJointInterval{1};
 
@@ -62,35 +58,17 @@ triangulation::Calibration calibrationOf(const SyncScanDriverConfig& config) {
   return simulation::ActiveSensorProfile{}.calibrated();
 }
 
-std::string readUrdf(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw config::Error(path, 0, "", "no such file, or not readable");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 driver::HeadJoint headJointOf(const SyncScanDriverConfig& config, const ros::NodeHandle& node,
                               const std::string& source) {
   const bridge::ActiveSensorNames& names = config.names;
   const driver::HeadFrames frames{names.joint, names.mount_frame, names.head_frame, names.frame};
-  if (!config.urdf.empty()) {
-    return driver::HeadJoint::fromUrdf(readUrdf(config.urdf), frames, config.urdf);
-  }
+  if (!config.urdf.empty()) return driver::HeadJoint::readFile(config.urdf, frames);
   std::string key;
   std::string xml;
   if (!node.searchParam("robot_description", key) || !node.getParam(key, xml)) {
     throw config::Error(source, 0, "urdf", "names no file, and there is no robot_description");
   }
   return driver::HeadJoint::fromUrdf(xml, frames, key);
-}
-
-void requireSameOrigin(const driver::HeadJoint& joint,
-                       const triangulation::Calibration& calibration, const std::string& frame) {
-  const Eigen::Vector2d calibrated = calibration.parameters.origin.position();
-  if ((joint.scan_origin - calibrated).norm() < kSameOrigin) return;
-  throw config::Error(
-      "robot description", 0, frame,
-      fmt::format("is at ({}, {}) m on the head, by the calibration at ({}, {}) m",
-                  joint.scan_origin.x(), joint.scan_origin.y(), calibrated.x(), calibrated.y()));
 }
 
 SyncScanDriverNode::SyncScanDriverNode(ros::NodeHandle node, ros::NodeHandle private_node)
@@ -100,7 +78,7 @@ SyncScanDriverNode::SyncScanDriverNode(ros::NodeHandle node, ros::NodeHandle pri
       updater_(node, private_node, private_node.getNamespace()) {
   const triangulation::SensorParameters& sensor = ranger_.calibration().parameters;
   const auto joint = headJointOf(config_, node, private_node.getNamespace());
-  requireSameOrigin(joint, ranger_.calibration(), config_.names.frame);
+  joint.requireScanOrigin(sensor.origin.position(), "robot description");
   updater_.setHardwareID(sensor.serial);
   session_ = std::make_unique<driver::DeviceSession>(
       config_.session, sensor.serial, static_cast<std::size_t>(sensor.scan.beams),

@@ -88,7 +88,8 @@ class TemporaryFile {
     const int handle = mkstemp(path_.data());
     if (handle < 0) throw Error("no temporary file for gnuplot at " + path_);
     close(handle);
-    std::ofstream(path_) << content;
+    std::ofstream file(path_);
+    if (!(file << content).flush()) throw Error("no room for gnuplot's script at " + path_);
   }
   ~TemporaryFile() { std::remove(path_.c_str()); }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -100,6 +101,12 @@ class TemporaryFile {
   std::string path_;
 };
 
+std::string quotedForShell(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
 struct Outcome {
   int status;
   std::string said;
@@ -108,7 +115,7 @@ struct Outcome {
 // gnuplot reads the script from a file and speaks through the pipe: written to, a gnuplot that is
 // missing or dies would end this process with a signal.
 Outcome runGnuplot(const std::string& script_path) {
-  FILE* pipe = popen(("gnuplot '" + script_path + "' 2>&1").c_str(), "r");
+  FILE* pipe = popen(("gnuplot " + quotedForShell(script_path) + " 2>&1").c_str(), "r");
   if (!pipe) throw Error("gnuplot cannot be started");
   Outcome outcome{0, ""};
   std::array<char, 1024> buffer{};
@@ -139,6 +146,12 @@ std::string gnuplotScript(const Figure& figure, const std::string& png_path) {
 }
 
 void writePng(const Figure& figure, const std::string& path) {
+  for (const Panel& panel : figure.panels) {
+    const auto has_points = [](const Series& series) { return !series.points.empty(); };
+    if (std::none_of(panel.series.begin(), panel.series.end(), has_points)) {
+      throw Error(fmt::format("{}: the panel '{}' has nothing to draw", path, panel.title));
+    }
+  }
   const TemporaryFile script(gnuplotScript(figure, path));
   const Outcome outcome = runGnuplot(script.path());
   constexpr int kNotFound = 127;

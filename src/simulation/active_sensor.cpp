@@ -45,7 +45,7 @@ std::vector<triangulation::RawScan> ActiveSensor::advance(const world::World& wo
     if (samples_ > 0) head_.step(1.0 / profile_.sensor.scan.sample_rate);
     if (scan_.currents.empty()) scan_.stamp = nextSample();
     scan_.currents.push_back(sample(world, T_map_mount(nextSample()), scan_.currents.size()));
-    scan_.head_angles.push_back(head_.reportedAngle());
+    scan_.head_angles.push_back(head_.angle());
     if (scan_.currents.size() == angles_.size()) finished.push_back(std::exchange(scan_, {}));
   }
   return finished;

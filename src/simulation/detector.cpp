@@ -13,10 +13,10 @@ Detector::Detector(double noise_current, double length, double bandwidth, double
       memory_(bandwidth > 0.0 ? std::exp(-2.0 * geometry::kPi * bandwidth / sample_rate) : 0.0),
       random_(randomStream(seed, 2)) {}
 
-double Detector::nextNoise() {
+// Of unit variance, sharing as much with the one before as the bandwidth lets.
+double Detector::next(double before) {
   const double fresh = normal_(random_);
-  noise_ = is_first_ ? fresh : memory_ * noise_ + std::sqrt(1.0 - memory_ * memory_) * fresh;
-  return noise_;
+  return is_first_ ? fresh : memory_ * before + std::sqrt(1.0 - memory_ * memory_) * fresh;
 }
 
 triangulation::Photocurrents Detector::measure(const SpotImage& spot) {
@@ -24,9 +24,15 @@ triangulation::Photocurrents Detector::measure(const SpotImage& spot) {
   const double kept = is_first_ ? 0.0 : memory_;
   light_.first = kept * light_.first + (1.0 - kept) * now.first;
   light_.second = kept * light_.second + (1.0 - kept) * now.second;
-  const double noise = 0.5 * noise_current_ * nextNoise();
+  difference_noise_ = next(difference_noise_);
+  total_noise_ = next(total_noise_);
   is_first_ = false;
-  return {light_.first + noise, light_.second - noise};
+  const double total = light_.total();
+  const double place = total > 0.0 ? (light_.first - light_.second) / total : 0.0;
+  // What comes on top of the total falls on the same place.
+  const double more = noise_current_ * total_noise_;
+  const double difference = place * (total + more) + noise_current_ * difference_noise_;
+  return {0.5 * (total + more + difference), 0.5 * (total + more - difference)};
 }
 
 }  // namespace sightline::simulation

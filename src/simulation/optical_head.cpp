@@ -81,6 +81,7 @@ std::vector<OpticalHead::Spot> OpticalHead::illuminate(const world::World& world
     const auto hit = world.cast({source_map, along_map}, shortlist);
     if (!hit) continue;
     const Eigen::Vector2d point = ray.offset * across + hit->range * along;
+    if (lens.axis.dot(point - lens.centre) <= 0.0) continue;  // behind the lens
     const double p = geometry_.imagePosition(point, lens);
     if (std::abs(p) > 0.5 * geometry_.intrinsics().detector_length) continue;
     spots.push_back(

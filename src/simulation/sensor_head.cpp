@@ -17,12 +17,21 @@ const triangulation::HeadLimits& checkedLimits(const triangulation::HeadLimits& 
 }  // namespace
 
 SensorHead::SensorHead(const triangulation::HeadLimits& limits)
-    : limits_(checkedLimits(limits)), angle_(std::clamp(0.0, limits.lower, limits.upper)) {}
+    : limits_(checkedLimits(limits)),
+      command_{Mode::kPosition, limits.rounded(0.0), 0.0},
+      angle_(command_.position) {}
 
 void SensorHead::command(const triangulation::HeadCommand& command) {
   if (!limits_.fault(command).empty()) return;
   command_ = command;
   command_.position = limits_.rounded(command.position);
+  if (command.mode == Mode::kStop) command_ = {Mode::kPosition, restingPlace(), 0.0};
+}
+
+// The step at which it can come to rest the soonest.
+double SensorHead::restingPlace() const {
+  const double way = 0.5 * rate_ * std::abs(rate_) / limits_.acceleration;
+  return limits_.rounded(angle_ + way);
 }
 
 // Where it is going to: a head that turns at a rate goes on until it meets a limit.
@@ -33,7 +42,6 @@ double SensorHead::target() const {
 }
 
 double SensorHead::wantedRate(double duration) const {
-  if (command_.mode == Mode::kStop) return 0.0;
   const double left = target() - angle_;
   // What can still be braked from in the steps that are left, the last one included.
   const double lag = 0.5 * limits_.acceleration * duration;

@@ -1,6 +1,4 @@
 // Noise current of a triangulation sensor from the spread of repeated readings (pears eq. 2).
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "program/program.h"
@@ -20,10 +18,8 @@ int estimate(const std::string& file, double detector_length) {
              found.noiseCurrentSigma(detector_length));
   fmt::print("product {:.1f} um nA +- {:.1f}\n", to_um_nA * found.product,
              to_um_nA * found.product_sigma);
-  // At 1 nA, where a line that is not quite of slope -1 has no natural unit.
-  const double at_1_nA = found.free_product * std::pow(1e-9, found.free_slope);
   fmt::print("free slope {:.3f} +- {:.3f}, product at 1 nA {:.1f} um nA (eq. 2 says -1)\n",
-             found.free_slope, found.free_slope_sigma, 1e6 * at_1_nA);
+             found.free_slope, found.free_slope_sigma, to_um_nA * found.free_product);
   return 0;
 }
 

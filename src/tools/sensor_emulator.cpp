@@ -25,6 +25,7 @@ struct Job {
   std::string port;
   std::string world;
   std::optional<std::string> profile;
+  std::optional<std::string> urdf;
   std::optional<std::string> faults;
   std::array<double, 3> pose{0.0, 0.0, 0.0};
   double seed = 1.0;
@@ -87,8 +88,9 @@ void obey(simulation::DeviceFaults& faults, int signals) {
 
 int emulate(const Job& job) {
   const int signals = catchSignals();
-  const auto profile = job.profile ? simulation::ActiveSensorProfile::readFile(*job.profile)
-                                   : simulation::ActiveSensorProfile{};
+  auto profile = job.profile ? simulation::ActiveSensorProfile::readFile(*job.profile)
+                             : simulation::ActiveSensorProfile{};
+  if (job.urdf) profile.takeHead(driver::HeadJoint::readFile(*job.urdf, {}), *job.urdf);
   const geometry::Pose2 pose(job.pose[0], job.pose[1], job.pose[2]);
   const auto seed = static_cast<std::uint64_t>(job.seed);
   simulation::EmulatedDevice device(
@@ -117,6 +119,7 @@ int main(int argc, char** argv) {
   program.option("--pose", job.pose, "X Y YAW", "of its mount in the world [m, m, rad]");
   program.option("--profile", job.profile, "FILE.yaml",
                  "what it is; by default as config/sensors/synchronised_scan.yaml");
+  program.option("--urdf", job.urdf, "FILE.urdf", "robot description with the limits of its head");
   program.option("--faults", job.faults, "WORDS", "faults from the start on, parted by semicolons");
   program.option("--seed", job.seed, "N", "of all noise and faults");
   // A launch file adds words of its own.

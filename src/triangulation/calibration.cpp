@@ -30,7 +30,19 @@ void SensorParameters::visit(config::FieldVisitor& visitor) {
 void SensorParameters::check(const std::string& source) const {
   config::validate(*this, source);
   scan.check(source);
-  if (serial.empty()) throw config::Error(source, 0, "sensor", "has to name a serial number");
+  const auto fail = [&](const char* key, const std::string& reason) {
+    throw config::Error(source, 0, key, reason);
+  };
+  if (serial.empty()) fail("sensor", "has to name a serial number");
+  const double widest = 0.5 * scan.field_of_view + std::abs(origin.projected_vergence);
+  if (widest > geometry::radians(80.0)) {
+    fail("origin.projected_vergence",
+         fmt::format("turns the outermost beam to {:.1f} degrees, 80 are the most",
+                     geometry::degrees(widest)));
+  }
+  if (scan.min_current < 5.0 * noise_current) {
+    fail("scan.min_current", "is below five times the noise current");
+  }
 }
 
 Calibration Calibration::readFile(const std::string& path) {
@@ -76,7 +88,7 @@ CalibrationTable modelledTable(const SensorParameters& parameters,
       rows.back().push_back(is_seen ? p : std::numeric_limits<double>::quiet_NaN());
     }
   }
-  return {depths, std::move(rows)};
+  return {depths, std::move(rows), "table of the sensor's parameters"};
 }
 
 std::vector<double> tableDepths(double nearest, double farthest, std::size_t count) {

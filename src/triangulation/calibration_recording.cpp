@@ -17,14 +17,15 @@ using CsvRow = config::CsvTable::Row;
 using PlacementKey = std::tuple<double, double, double>;  // stripe width, stripe edge, depth
 
 PlacementKey placementOf(const CsvRow& row, const SensorParameters& sensor) {
-  const double depth = row.number("depth_m", config::kPositive);
+  const double depth = row.number("depth_m", {1e-3, 100.0});
   if (depth <= sensor.origin.x) {
     row.fail("depth_m", fmt::format("{} is not ahead of the scan's origin", depth));
   }
   const std::string& kind = row.text("target");
   if (kind == "plain") return {0.0, 0.0, depth};
   if (kind != "striped") row.fail("target", fmt::format("'{}' is neither plain nor striped", kind));
-  return {row.number("stripe_width_m", config::kPositive), row.number("stripe_edge_m"), depth};
+  return {row.number("stripe_width_m", {1e-3, 10.0}), row.number("stripe_edge_m", {-10.0, 10.0}),
+          depth};
 }
 
 BeamAverage readBeam(const CsvRow& row, const SensorParameters& sensor) {
@@ -33,7 +34,7 @@ BeamAverage readBeam(const CsvRow& row, const SensorParameters& sensor) {
   average.beam = static_cast<std::size_t>(row.integer("beam", {0.0, sensor.scan.beams - 1.0}));
   average.readings = row.integer("readings", {1.0, 1e9});
   average.image_position = row.number("image_position_m", {-half_detector, half_detector});
-  average.current = row.number("current_A", config::kPositive);
+  average.current = row.number("current_A", {1e-15, 1e-3});
   return average;
 }
 

@@ -10,6 +10,10 @@ namespace sightline::triangulation {
 
 namespace {
 
+std::string rowKey(std::size_t beam) {
+  return fmt::format("image_positions[{}]", beam);
+}
+
 void checkDepths(const std::vector<double>& depths, const std::string& source) {
   const auto fail = [&](const std::string& reason) {
     throw config::Error(source, 0, "depths", reason);
@@ -73,15 +77,26 @@ CalibrationTable::CalibrationTable(std::vector<double> depths,
   for (std::size_t beam = 0; beam < image_positions.size(); ++beam) {
     rows_.push_back(rowOf(image_positions[beam]));
     checkRow(image_positions[beam], depths_, rows_.back().first, rows_.back().negated.size(),
-             source, fmt::format("image_positions[{}]", beam));
+             source, rowKey(beam));
   }
   for (const double depth : depths_) inverse_depths_.push_back(1.0 / depth);
 }
 
-CalibrationTable::CalibrationTable(const config::Node& node)
-    : CalibrationTable(node.at("depths").numbers(), readRows(node.at("image_positions")),
-                       node.source()) {
+CalibrationTable::CalibrationTable(const config::Node& node) : CalibrationTable(fromNode(node)) {}
+
+CalibrationTable CalibrationTable::fromNode(const config::Node& node) {
   node.allowOnly({"depths", "image_positions"});
+  const config::Node rows = node.at("image_positions");
+  try {
+    return {node.at("depths").numbers(), readRows(rows), ""};
+  } catch (const config::Error& error) {
+    if (!error.source().empty()) throw;  // names its place already
+    const std::vector<config::Node> items = rows.items();
+    for (std::size_t beam = 0; beam < items.size(); ++beam) {
+      if (error.key() == rowKey(beam)) items[beam].fail(error.reason());
+    }
+    node.at(error.key()).fail(error.reason());
+  }
 }
 
 std::vector<double> CalibrationTable::imagePositions(std::size_t beam) const {

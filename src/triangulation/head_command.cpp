@@ -1,5 +1,6 @@
 #include "sightline/triangulation/head_command.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +8,8 @@
 namespace sightline::triangulation {
 
 namespace {
+
+constexpr double kRounding = 1e-6;  // of a step, so that a limit that is one counts as one
 
 std::string faultOfPosition(const HeadLimits& limits, double position) {
   if (!std::isfinite(position)) return "a position that is not finite";
@@ -39,7 +42,9 @@ void HeadLimits::check(const std::string& source) const {
 }
 
 double HeadLimits::rounded(double position) const {
-  return resolution * std::round(position / resolution);
+  const double step = std::round(position / resolution);
+  return resolution * std::clamp(step, std::ceil(lower / resolution - kRounding),
+                                 std::floor(upper / resolution + kRounding));
 }
 
 std::string HeadLimits::fault(const HeadCommand& command) const {

@@ -23,11 +23,21 @@ Regression regress(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
   return {slope, std::sqrt(variance / dx.square().sum())};
 }
 
+// Whether a quantity is given in the first of its two units.
+bool isOnly(const config::CsvTable& table, const char* column, const char* other) {
+  const auto fail = [&](const char* reason) {
+    throw config::Error(table.source(), 0, fmt::format("{}, {}", column, other), reason);
+  };
+  if (table.has(column) && table.has(other)) fail("both are there; one is needed");
+  if (!table.has(column) && !table.has(other)) fail("missing column: one of them is needed");
+  return table.has(column);
+}
+
 }  // namespace
 
 std::vector<SpreadAtCurrent> readSpreads(const config::CsvTable& table) {
-  const bool in_nanoamperes = table.has("current_nA");
-  const bool in_micrometres = table.has("image_sigma_um");
+  const bool in_nanoamperes = isOnly(table, "current_nA", "current_A");
+  const bool in_micrometres = isOnly(table, "image_sigma_um", "image_sigma_m");
   std::vector<SpreadAtCurrent> spreads;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const auto row = table.row(i);
@@ -64,7 +74,8 @@ NoiseCurrentEstimate estimateNoiseCurrent(const std::vector<SpreadAtCurrent>& sp
   estimate.product_sigma = estimate.product * scatter;
   estimate.free_slope = line.slope;
   estimate.free_slope_sigma = line.slope_sigma;
-  estimate.free_product = std::exp(sigma.mean() - line.slope * current.mean());
+  estimate.free_product =
+      1e-9 * std::exp(sigma.mean() + line.slope * (std::log(1e-9) - current.mean()));
   return estimate;
 }
 

@@ -211,6 +211,7 @@ ParameterEstimate joined(const CalibrationResiduals& residuals, const ParameterV
   estimate.covariance = informationAt(residuals, solution).inverse();
   estimate.residuals = residuals.at(solution);
   requireMinimum(residuals, solution, estimate.residuals, estimate.covariance, source);
+  config::validate(estimate.origin, source);
   estimate.images = residuals.images();
   estimate.edges = residuals.edges();
   return estimate;
@@ -238,7 +239,8 @@ double ParameterEstimate::edgeRms() const {
 }
 
 double ParameterEstimate::reducedChiSquare() const {
-  return residuals.squaredNorm() / static_cast<double>(residuals.size() - kParameterCount);
+  const auto freedom = static_cast<double>(residuals.size() - kParameterCount);
+  return freedom > 0.0 ? residuals.squaredNorm() / freedom : 1.0;
 }
 
 ParameterEstimate estimateParameters(const CalibrationRecording& recording,

@@ -26,8 +26,11 @@ std::optional<double> neighbouringPosition(const std::vector<double>& positions,
     if (i != beam && std::isfinite(positions[i])) around[count++] = positions[i];
   }
   if (count < kReach) return std::nullopt;
-  std::nth_element(around.begin(), around.begin() + count / 2, around.begin() + count);
-  const double median = around[count / 2];
+  const auto middle = around.begin() + count / 2;
+  std::nth_element(around.begin(), middle, around.begin() + count);
+  // Of an even number the mean of both middle ones, or it would lean to one side.
+  const double below = count % 2 == 1 ? *middle : *std::max_element(around.begin(), middle);
+  const double median = 0.5 * (below + *middle);
   if (!(std::abs(median - positions[beam]) <= most)) return std::nullopt;
   return median;
 }

@@ -93,7 +93,8 @@ EdgeFit::Place EdgeFit::locate() const {
     const Place found = averageOver(begin, end);
     const double step = (end - begin) / kSteps;
     // Fine enough to add up, or finer than any scan.
-    if (found.sigma > 2.0 * step || step < 1e-6) return {found.mean, std::max(found.sigma, step)};
+    if (found.sigma > 2.0 * step || !(step >= 1e-6))
+      return {found.mean, std::max(found.sigma, step)};
     begin = found.mean - 5.0 * step;
     end = found.mean + 5.0 * step;
   }

@@ -20,6 +20,14 @@ TEST(CsvTable, ReadsColumnsByName) {
   EXPECT_FALSE(table.has("c"));
 }
 
+TEST(CsvTable, BeginsAfterAByteOrderMark) {
+  const auto table = CsvTable::parse(
+      "\xEF\xBB\xBF"
+      "a,b\n1,2\n",
+      "t.csv");
+  EXPECT_EQ(table.row(0).number("a"), 1.0);
+}
+
 TEST(CsvTable, NamesFileLineAndColumn) {
   const auto table = CsvTable::parse("a,b\n1,2\n\n3,4x\n", "t.csv");
   const auto missing = errorOf([&] { table.row(1).number("c"); });

@@ -56,6 +56,9 @@ TEST(Figure, SaysWhyItCannotBeDrawn) {
     EXPECT_THAT(error.what(), HasSubstr("cannot open file"));
   }
   const TemporaryFolder folder;
+  Figure empty = twoPanels();
+  empty.panels[0].series.clear();
+  EXPECT_THROW(writePng(empty, folder.path("a.png")), Error);
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder.path("").c_str(), 1);
   EXPECT_THROW(writePng(twoPanels(), folder.path("a.png")), Error);

@@ -152,7 +152,7 @@ TEST(Detector, ABandwidthMakesNeighboursAlike) {
   EXPECT_NEAR(std::sqrt(moments.covariance()(0, 0)), sigma, 0.02 * sigma);
   EXPECT_NEAR(moments.covariance()(0, 1) / moments.covariance()(0, 0), 0.081, 0.02);
   // Light is late by the same share.
-  EXPECT_NEAR(detector.measure({0.0, 0.0}).total(), 0.081 * 10e-9, 0.01e-9);
+  EXPECT_NEAR(detector.measure({0.0, 0.0}).total(), 0.081 * 10e-9, 4.0 * 0.03622e-9);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(Calibration, RefusesTablesThatDoNotFit) {
   const auto beams = fault("beams: 5", "beams: 6");
   EXPECT_THAT(beams.what(), HasSubstr("table: is of 5 beams, the scan of 6"));
   EXPECT_GT(beams.line(), 0);
-  EXPECT_EQ(fault("depths: [", "depths: [0.1, ").key(), "image_positions[0]");
+  EXPECT_EQ(fault("depths: [", "depths: [0.1, ").key(), "table.image_positions[0]");
   EXPECT_THAT(fault("table:", "tables:").what(), HasSubstr("unknown key"));
   const std::string cut = good.substr(0, good.find("image_positions"));
   EXPECT_THAT(errorOf([&] { readYaml(cut); }).what(), HasSubstr("image_positions"));

@@ -18,7 +18,7 @@ TEST(NoiseCurrent, OfTable2) {
   EXPECT_NEAR(estimate.noiseCurrent(0.010), 36.22e-12, 0.01e-12);
   EXPECT_NEAR(estimate.free_slope, -1.019, 5e-4);
   // The free line's value at 1 nA, as the paper's units have it.
-  EXPECT_NEAR(estimate.free_product * std::pow(1e-9, estimate.free_slope), 189.8e-6, 0.05e-6);
+  EXPECT_NEAR(estimate.free_product, 189.8e-15, 0.05e-15);
 }
 
 TEST(NoiseCurrent, IsExactWithoutScatter) {
@@ -54,7 +54,9 @@ TEST(NoiseCurrent, ReadsEitherUnit) {
   EXPECT_DOUBLE_EQ(si[0].current, nano[0].current);
   EXPECT_DOUBLE_EQ(si[0].image_position_sigma, nano[0].image_position_sigma);
   const auto missing = config::CsvTable::parse("current_nA\n1\n", "n.csv");
-  EXPECT_EQ(errorOf([&] { readSpreads(missing); }).key(), "image_sigma_m");
+  EXPECT_EQ(errorOf([&] { readSpreads(missing); }).key(), "image_sigma_um, image_sigma_m");
+  const auto both = config::CsvTable::parse("current_nA,current_A,image_sigma_m\n1,2,3\n", "n.csv");
+  EXPECT_EQ(errorOf([&] { readSpreads(both); }).key(), "current_nA, current_A");
   const auto negative = config::CsvTable::parse("current_nA,image_sigma_um\n1,-2\n", "n.csv");
   EXPECT_EQ(errorOf([&] { readSpreads(negative); }).line(), 2);
 }

@@ -94,6 +94,26 @@ TEST(Ranger, VarianceIsThatOfTheRange) {
   }
 }
 
+// Of a scan: taken at the neighbours' position, it does not depend on the range's own error.
+TEST(Ranger, VarianceInAScanIsThatOfTheRange) {
+  const Ranger ranger(calibration());
+  test::Gauss gauss(6);
+  const double current = 26e-9 / (2.2 * 2.2);
+  const double sigma = imagePositionSigma(current, 36.22e-12, 0.01);
+  test::Moments<2> moments;  // range and its variance of a beam in the middle
+  for (int i = 0; i < 6000; ++i) {
+    RawScan raw = rawScan(ranger, 2.2, current);
+    for (Photocurrents& exact : raw.currents) {
+      exact = photocurrentsAt(imagePosition(exact, 0.01) + gauss(sigma), current, 0.01);
+    }
+    const scan::Scan scan = ranger.range(raw).scan;
+    moments.add({scan.ranges[128], scan.range_variances[128]});
+  }
+  const Eigen::Matrix2d covariance = moments.covariance();
+  EXPECT_NEAR(moments.mean()[1] / covariance(0, 0), 1.0, 0.06);
+  EXPECT_NEAR(covariance(0, 1) / std::sqrt(covariance(0, 0) * covariance(1, 1)), 0.0, 0.05);
+}
+
 TEST(Ranger, SortsWhatIsOutsideByRep117) {
   const Ranger ranger(calibration());
   const auto kindOf = [&](double range, double current) {

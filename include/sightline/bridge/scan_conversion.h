@@ -20,9 +20,9 @@ class ScanReader {
   /// one of an upright sensor at the same place. Where the mounting is known, see bridge::Mounting.
   void setUpsideDown(bool upside_down) { upside_down_ = upside_down; }
 
-  /// Throws scan::InvalidScan with the reason: no beams, an increment of zero or NaN, limits out of
-  /// order, a time stamp of zero, a number of intensities that is neither zero nor that of the
-  /// ranges.
+  /// Throws scan::InvalidScan with the reason: no beams, a sweep of more than a minute, an
+  /// increment of zero or NaN, limits out of order, a time stamp of zero, a number of intensities
+  /// that is neither zero nor that of the ranges.
   scan::Scan read(const sensor_msgs::LaserScan& message);
 
  private:

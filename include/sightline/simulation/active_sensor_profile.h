@@ -3,6 +3,7 @@
 #include <string>
 
 #include "sightline/config/fields.h"
+#include "sightline/driver/head_joint.h"
 #include "sightline/simulation/calibration_rig.h"
 #include "sightline/simulation/optical_head.h"
 #include "sightline/triangulation/calibration.h"
@@ -25,8 +26,13 @@ struct ActiveSensorProfile {
   static ActiveSensorProfile readFile(const std::string& path);
   void check(const std::string& source) const;
 
-  /// What turns its currents into ranges: the calibration file, which has to be of this sensor, or,
-  /// without one, a table as these very parameters fill it. Throws config::Error.
+  /// Takes the limits of the head from a robot description; the rest stays. Throws config::Error
+  /// naming `source` where that puts the scan's origin elsewhere.
+  void takeHead(const driver::HeadJoint& joint, const std::string& source);
+
+  /// What turns its currents into ranges: the calibration file, which has to be of this sensor and
+  /// of its scan, and whose limits of range and current count; or, without one, a table as these
+  /// very parameters fill it. Throws config::Error.
   triangulation::Calibration calibrated() const;
 };
 

@@ -18,18 +18,20 @@ class Detector {
   Detector(double noise_current, double length, double bandwidth, double sample_rate,
            std::uint64_t seed);
 
-  /// One sample. The difference of the currents has noise of standard deviation I_n: that makes eq.
-  /// 2. With a bandwidth neighbouring samples share some of it, and of the light.
+  /// One sample. The difference of the currents has noise of standard deviation I_n, which makes
+  /// eq. 2, and so has their sum, independently, which does not move the image. With a bandwidth
+  /// neighbouring samples share some of both, and of the light.
   triangulation::Photocurrents measure(const SpotImage& spot);
 
  private:
-  double nextNoise();
+  double next(double before);
 
   double noise_current_;
   double length_;
   double memory_;  // of a sample in the next one, [0, 1)
   triangulation::Photocurrents light_;
-  double noise_ = 0.0;  // of unit variance
+  double difference_noise_ = 0.0;  // of unit variance
+  double total_noise_ = 0.0;       // likewise
   bool is_first_ = true;
   RandomStream random_;
   std::normal_distribution<double> normal_;

@@ -5,10 +5,11 @@
 namespace sightline::simulation {
 
 /// The servo platform that turns the sensor head: follows commands with limited rate and
-/// acceleration, brakes before its target and before its limits, and knows its position in steps.
+/// acceleration, and brakes before its target and before its limits. It comes to rest on a step of
+/// its drive, and knows where between two steps it is while it turns (pears section 4.2).
 class SensorHead {
  public:
-  /// Stands at 0, or at the limit next to it. Throws config::Error.
+  /// Stands at 0, or at the step within its limits next to it. Throws config::Error.
   explicit SensorHead(const triangulation::HeadLimits& limits);
 
   /// Positions are rounded to the servo's steps. A command that limits().fault() names is to be
@@ -17,13 +18,12 @@ class SensorHead {
   /// Moves on by `duration` [s], small against the time that the rate takes to change.
   void step(double duration);
 
-  double angle() const { return angle_; }  ///< true one [rad]
+  double angle() const { return angle_; }  ///< [rad]
   double rate() const { return rate_; }    ///< [rad/s]
-  /// As the encoder says: in steps [rad].
-  double reportedAngle() const { return limits_.rounded(angle_); }
   const triangulation::HeadLimits& limits() const { return limits_; }
 
  private:
+  double restingPlace() const;
   double target() const;
   double wantedRate(double duration) const;
 

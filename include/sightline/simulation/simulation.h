@@ -63,6 +63,9 @@ class Simulation {
   const Robot& robot() const { return robot_; }
   /// As it was at the last sample, less than a sample ago.
   const SensorHead& head(std::size_t sensor) const { return active_sensors_[sensor].sensor.head(); }
+  const triangulation::Calibration& calibration(std::size_t sensor) const {
+    return active_sensors_[sensor].ranger.calibration();
+  }
   /// Where the scanners' carrier is in the plane, gait and all; [0, time()] but no more than the
   /// last ten seconds.
   geometry::Pose2 T_map_base(std::int64_t time) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -64,7 +65,7 @@ struct Calibration {
 CalibrationTable modelledTable(const SensorParameters& parameters,
                                const std::vector<double>& depths);
 
-/// `count` depths [m], equally far apart on the detector: uniform in 1/z.
+/// `count` ≥ 2 depths [m], equally far apart on the detector: uniform in 1/z.
 std::vector<double> tableDepths(double nearest, double farthest, std::size_t count);
 
 }  // namespace sightline::triangulation

@@ -49,6 +49,7 @@ class CalibrationTable {
     std::size_t first = 0;
     std::vector<double> negated;
   };
+  static CalibrationTable fromNode(const config::Node& node);
   static Row rowOf(const std::vector<double>& image_positions);
 
   std::vector<double> depths_;

@@ -28,7 +28,7 @@ struct HeadLimits {
   /// Throws config::Error naming `source` where a value is out of range or two do not fit.
   void check(const std::string& source) const;
 
-  /// The nearest position that the servo can be sent to [rad].
+  /// The nearest position that the servo can be sent to [rad]: a step within the limits.
   double rounded(double position) const;
   /// Why the command cannot be followed: not finite, beyond the limits; empty where it can.
   std::string fault(const HeadCommand& command) const;

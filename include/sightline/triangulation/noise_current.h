@@ -12,7 +12,7 @@ struct SpreadAtCurrent {
   double image_position_sigma = 0.0;  ///< standard deviation of one reading [m]
 };
 
-/// Columns `current_A` and `image_sigma_m`, or `current_nA` and `image_sigma_um`. Throws
+/// Columns `current_A` or `current_nA`, and `image_sigma_m` or `image_sigma_um`. Throws
 /// config::Error with file, line and column.
 std::vector<SpreadAtCurrent> readSpreads(const config::CsvTable& table);
 
@@ -21,8 +21,8 @@ struct NoiseCurrentEstimate {
   /// Δp · I₀ [m·A], with the slope held at the −1 that eq. 2 says.
   double product = 0.0;
   double product_sigma = 0.0;  ///< from the scatter of the readings
-  /// The same with the slope left free, which tells whether eq. 2 holds: exp(intercept) [m·A] and
-  /// slope, −1 within a few of its standard deviations if it does.
+  /// The same with the slope left free, which tells whether eq. 2 holds: Δp · I₀ at 1 nA [m·A], and
+  /// the slope, −1 within a few of its standard deviations if it does.
   double free_product = 0.0;
   double free_slope = 0.0;
   double free_slope_sigma = 0.0;

@@ -38,10 +38,10 @@ class ProjectionGeometry {
     Eigen::Vector2d axis;    ///< unit vector of the optical axis, outwards
   };
   Lens lens(double angle) const;
-  /// p [m] of any point, of a ray beside the beam's axis, say.
+  /// p [m] of any point in front of the lens, of a ray beside the beam's axis, say.
   double imagePosition(const Eigen::Vector2d& point, const Lens& lens) const;
 
-  /// ∂r/∂p: triangulation gain along the beam, never positive.
+  /// ∂r/∂p: triangulation gain along the beam, negative for the image of any point ahead.
   double rangeGain(double image_position, double angle) const;
   /// ∂z/∂p: triangulation gain of pears section 2.1.
   double depthGain(double image_position, double angle) const;

@@ -52,7 +52,7 @@ class HeadDevice : public driver::DeviceModel {
       truth_->add(head_.angle());
       if (scan_.currents.empty()) scan_.stamp = next_;
       scan_.currents.push_back({1e-8, 1e-8});
-      scan_.head_angles.push_back(head_.reportedAngle());
+      scan_.head_angles.push_back(head_.angle());
       if (scan_.currents.size() == kSamples) scans.push_back(std::exchange(scan_, {}));
     }
     return scans;

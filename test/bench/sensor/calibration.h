@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <future>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "bench/figures.h"
@@ -62,9 +62,9 @@ inline std::vector<CalibrationRun> calibrateMany(const simulation::ActiveSensorP
   const auto every_other = [&](std::size_t first) {
     for (std::size_t i = first; i < count; i += 2) runs[i] = calibrateOnce(profile, i + 1);
   };
-  std::thread even(every_other, 0);
+  auto even = std::async(std::launch::async, every_other, 0);
   every_other(1);
-  even.join();
+  even.get();
   return runs;
 }
 

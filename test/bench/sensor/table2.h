@@ -52,24 +52,53 @@ struct Readings {
   double variance_ratio = 0.0;  ///< mean of the predicted variances over the observed one
 };
 
+/// The spots of some beams about one, of a target; the others stay dark.
+class TargetSpots {
+ public:
+  TargetSpots(const simulation::ActiveSensorProfile& profile, const scan::ScanGeometry& geometry,
+              double depth, std::size_t beam)
+      : first_(beam - kAround), raw_{1, {}, std::vector<double>(geometry.beams(), 0.0)} {
+    const simulation::OpticalHead head(profile.sensor.intrinsics, profile.optics);
+    const world::World world = whiteTarget(depth);
+    const Eigen::Isometry3d T_map_projection(Eigen::Translation3d(0, 0, 1));
+    for (std::size_t i = first_; i <= beam + kAround; ++i) {
+      spots_.push_back(head.look(world, T_map_projection, geometry.angles()[i]));
+    }
+    raw_.currents.resize(geometry.beams());
+  }
+  const triangulation::RawScan& measure(simulation::Detector& detector) {
+    for (std::size_t i = 0; i < spots_.size(); ++i) {
+      raw_.currents[first_ + i] = detector.measure(spots_[i]);
+    }
+    return raw_;
+  }
+
+ private:
+  static constexpr std::size_t kAround = 8;
+  std::size_t first_;
+  std::vector<simulation::SpotImage> spots_;
+  triangulation::RawScan raw_;
+};
+
+/// Through whole scans, as they are published, but for the limits of range: a target at the
+/// farthest one would be cut in two by them.
 inline Readings readRepeatedly(const simulation::ActiveSensorProfile& profile, double depth,
                                std::uint64_t seed) {
   constexpr int kReadings = 20000;
   const triangulation::Ranger ranger(profile.calibrated());
   const std::size_t beam = beamAhead(*ranger.geometry());
   const double length = profile.sensor.intrinsics.detector_length;
-  const auto spot = simulation::OpticalHead(profile.sensor.intrinsics, profile.optics)
-                        .look(whiteTarget(depth), Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1)),
-                              ranger.geometry()->angles()[beam]);
   simulation::Detector detector(profile.sensor.noise_current, length, profile.bandwidth,
                                 profile.sensor.scan.sample_rate, seed);
+  TargetSpots spots(profile, *ranger.geometry(), depth, beam);
   test::Moments<5> moments;  // current, image position, depth, range, variance
   for (int i = 0; i < kReadings; ++i) {
-    const auto currents = detector.measure(spot);
-    const auto reading = ranger.read(beam, currents);
+    const triangulation::RawScan& raw = spots.measure(detector);
+    const scan::Scan scan = ranger.range(raw).scan;
     Eigen::Matrix<double, 5, 1> sample;
-    sample << currents.total(), triangulation::imagePosition(currents, length), reading.depth,
-        reading.range, reading.variance;
+    sample << scan.intensities[beam], triangulation::imagePosition(raw.currents[beam], length),
+        scan.ranges[beam] * scan.geometry->cosines()[beam], scan.ranges[beam],
+        scan.range_variances[beam];
     moments.add(sample);
   }
   const Eigen::Matrix<double, 5, 1> variances = moments.covariance().diagonal();
