@@ -42,10 +42,12 @@ void addCounts(const driver::SessionStatus& now,
 }  // namespace
 
 DeviceDiagnostics::DeviceDiagnostics(const driver::SessionConfig& config,
-                                     const driver::DeviceSession& session, double scan_rate,
+                                     const driver::DeviceSession& session,
+                                     const driver::ScanQueue& queue, double scan_rate,
                                      diagnostic_updater::Updater& updater)
     : config_(config),
       session_(session),
+      queue_(queue),
       scan_rate_(scan_rate),
       frequency_({&scan_rate_, &scan_rate_, 0.1, 5}, "scan frequency") {
   updater.add("device", this, &DeviceDiagnostics::report);
@@ -62,8 +64,11 @@ void DeviceDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& stat
   addDevice(now, status);
   status.add("Computed Latency", now.latency);
   status.add("Clock drift [ppm]", 1e6 * now.drift);
+  status.add("Clock resets", now.clock_resets);
   addCounts(now, status);
+  status.add("Scans not worked on in time", queue_.overruns());
   before_ = now;
+  overruns_before_ = queue_.overruns();
 }
 
 void DeviceDiagnostics::summarise(const driver::SessionStatus& now,
@@ -74,6 +79,8 @@ void DeviceDiagnostics::summarise(const driver::SessionStatus& now,
     status.summary(DiagnosticStatus::WARN, "connecting");
   } else if (brokenParts(now) > brokenParts(before_)) {
     status.summary(DiagnosticStatus::WARN, "scanning; bytes arrive broken");
+  } else if (queue_.overruns() > overruns_before_) {
+    status.summary(DiagnosticStatus::WARN, "scanning; scans come faster than they are worked on");
   } else if (now.counts.lost_scans > before_.counts.lost_scans) {
     status.summary(DiagnosticStatus::WARN, "scanning; scans were lost");
   } else {

@@ -8,7 +8,8 @@ namespace sightline::driver {
 
 namespace {
 
-constexpr double kOtherClock = 1.0;  // [s]: no delay is so long, no drift so fast
+constexpr double kOtherClock = 1.0;                  // [s]: no drift is so fast
+constexpr std::int64_t kAlwaysLate = 2'000'000'000;  // [ns]: no delay lasts so long
 
 // Whether b lies on or above the straight line from a to c.
 template <class Point>
@@ -64,9 +65,11 @@ void ClockEstimator::observeArrival(std::uint32_t device, std::int64_t host) {
     const double wraps = std::round((since - deviceSeconds(device)) / (1e-6 * 4294967296.0));
     const double seconds = deviceSeconds(device) + wraps * (1e-6 * 4294967296.0);
     const double ahead = since - seconds;
-    if (std::abs(ahead - aheadAt(seconds)) > kOtherClock) {
+    if (isOtherClock(ahead - aheadAt(seconds), host)) {
       ++resets_;
       reset();
+    } else if (late_since_) {
+      return;
     } else if (seconds >= arrivals_.back().device) {
       last_device_ = device;
       last_seconds_ = seconds;
@@ -81,6 +84,15 @@ void ClockEstimator::observeArrival(std::uint32_t device, std::int64_t host) {
   arrivals_.push_back({0.0, 0.0});
 }
 
+// Nothing arrives before it left. What is late has waited somewhere, unless all is late for long.
+bool ClockEstimator::isOtherClock(double late, std::int64_t host) {
+  if (late <= kOtherClock) late_since_.reset();
+  if (std::abs(late) <= kOtherClock) return false;
+  if (late < 0.0) return true;
+  if (!late_since_) late_since_ = host;
+  return host - *late_since_ > kAlwaysLate;
+}
+
 void ClockEstimator::observeDeparture(std::int64_t host, std::uint32_t device) {
   if (arrivals_.empty()) return;
   const double seconds = deviceSeconds(device);
@@ -90,6 +102,7 @@ void ClockEstimator::observeDeparture(std::int64_t host, std::uint32_t device) {
 void ClockEstimator::reset() {
   arrivals_.clear();
   departures_.clear();
+  late_since_.reset();
   last_seconds_ = slope_ = ahead_ = held_back_ = 0.0;
 }
 

@@ -16,6 +16,7 @@ constexpr std::int64_t kSilence = 250 * kMillisecond;    // two scans have not c
 constexpr std::int64_t kPatience = 1000 * kMillisecond;  // before silence is a fault
 constexpr std::int64_t kAskingPeriod = 40 * kMillisecond;
 constexpr std::int64_t kStrangerPeriod = 250 * kMillisecond;  // of asking who is not the right one
+constexpr std::int64_t kFramePatience = 50 * kMillisecond;    // beyond what its bytes take
 constexpr std::int64_t kPingPeriod = 250 * kMillisecond;
 constexpr std::int64_t kCommandPeriod = 100 * kMillisecond;
 constexpr std::int64_t kCommandPatience = 1000 * kMillisecond;
@@ -33,8 +34,16 @@ std::int64_t lineTime(std::size_t bytes, int baud_rate) {
 Moment Moment::now() {
   using std::chrono::duration_cast;
   using std::chrono::nanoseconds;
-  return {duration_cast<nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(),
-          duration_cast<nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count()};
+  using std::chrono::steady_clock;
+  constexpr std::chrono::microseconds kTogether{20};  // that the clocks are to be read within
+  for (int tries = 0;; ++tries) {
+    const auto before = steady_clock::now();
+    const auto system = std::chrono::system_clock::now();
+    const auto between = steady_clock::now() - before;
+    if (between > kTogether && tries < 5) continue;  // something else ran meanwhile
+    return {duration_cast<nanoseconds>((before + between / 2).time_since_epoch()).count(),
+            duration_cast<nanoseconds>(system.time_since_epoch()).count()};
+  }
 }
 
 Conversation::Conversation(ConversationConfig config, OnScan on_scan)
@@ -44,21 +53,41 @@ void Conversation::open(const Moment& now) {
   parser_.clear();
   device_.reset();
   trouble_ = {};
-  bytes_ = 0;
-  last_scan_ = now.steady;
+  last_scan_ = last_byte_ = last_frame_ = now.steady;
   last_asked_ = now.steady - kAskingPeriod;
 }
 
 void Conversation::receive(ByteView bytes, const Moment& now) {
-  bytes_ += bytes.size;
+  last_byte_ = now.steady;
   for (std::size_t taken = 0; taken < bytes.size;) {
+    if (parser_.waiting() == 0) begun_ = now.steady;
     taken += parser_.append({bytes.data + taken, bytes.size - taken});
-    while (const auto frame = parser_.next()) take(*frame, now);
+    takeFrames(now);
+  }
+}
+
+void Conversation::takeFrames(const Moment& now) {
+  while (const auto frame = parser_.next()) {
+    begun_ = last_frame_ = now.steady;
+    take(*frame, now);
+  }
+}
+
+// A device that was switched off in the midst of a frame leaves a beginning that would swallow what
+// comes after it.
+void Conversation::giveUpOldFrame(const Moment& now) {
+  const auto is_old = [&] {
+    const std::int64_t expected = lineTime(parser_.awaited(), config_.baud_rate);
+    return parser_.waiting() > 0 && now.steady - begun_ > expected + kFramePatience;
+  };
+  while (is_old()) {
+    parser_.giveUp();
+    takeFrames(now);
   }
 }
 
 void Conversation::take(const Frame& frame, const Moment& now) {
-  if (frame.header.version != kProtocolVersion) return refuseVersion(frame.header.version);
+  if (frame.header.version != kProtocolVersion) return refuseVersion(frame.header.version, now);
   Identity identity;
   Acknowledgement answer;
   Pong pong;
@@ -78,8 +107,8 @@ void Conversation::take(const Frame& frame, const Moment& now) {
   }
 }
 
-void Conversation::refuseVersion(int version) {
-  if (device_) return;
+void Conversation::refuseVersion(int version, const Moment& now) {
+  if (isScanning(now)) return;
   trouble_ =
       trouble(Fault::kWrongVersion, fmt::format("{}, expected {}", version, kProtocolVersion));
 }
@@ -161,6 +190,7 @@ void Conversation::takeScan(const Moment& now) {
   const bool goes_back = number_ && static_cast<std::int32_t>(report_.number - *number_) <= 0;
   if (!time || goes_back || report_.currents.size() != config_.samples) {
     ++counts_.refused_scans;
+    number_.reset();  // or one wrong number would shut out all that come after it
     return;
   }
   countLost();
@@ -169,7 +199,6 @@ void Conversation::takeScan(const Moment& now) {
   scan_.stamp = *time + now.system - now.steady;
   ++counts_.scans;
   last_scan_ = now.steady;
-  bytes_ = 0;
   trouble_ = {};
   on_scan_(scan_);
 }
@@ -179,21 +208,29 @@ bool Conversation::isScanning(const Moment& now) const {
 }
 
 void Conversation::judgeSilence(const Moment& now) {
-  const bool is_known =
+  const bool is_of_device =
       trouble_.fault == Fault::kWrongDevice || trouble_.fault == Fault::kWrongVersion ||
       trouble_.fault == Fault::kWrongSerial || trouble_.fault == Fault::kWrongSamples;
-  if (is_known || now.steady - last_scan_ < kPatience) return;
-  const double seconds = 1e-9 * static_cast<double>(now.steady - last_scan_);
-  if (bytes_ == 0) {
-    trouble_ = trouble(Fault::kSilentDevice, fmt::format("nothing came for {:.0f} s", seconds));
-  } else {
-    trouble_ =
-        trouble(Fault::kGarbage, fmt::format("{} bytes and no scan in {:.0f} s", bytes_, seconds));
+  if (now.steady - last_scan_ < kPatience) return;
+  const auto secondsSince = [&](std::int64_t time) {
+    return 1e-9 * static_cast<double>(now.steady - time);
+  };
+  if (now.steady - last_byte_ >= kPatience) {
+    trouble_ = trouble(Fault::kSilentDevice,
+                       fmt::format("nothing came for {:.0f} s", secondsSince(last_byte_)));
+  } else if (now.steady - last_frame_ >= kPatience) {
+    trouble_ = trouble(Fault::kGarbage, fmt::format("bytes, and nothing whole for {:.0f} s",
+                                                    secondsSince(last_frame_)));
+  } else if (!is_of_device) {
+    trouble_ = trouble(Fault::kNoScans, fmt::format("it answers, but sent none for {:.0f} s",
+                                                    secondsSince(last_scan_)));
   }
 }
 
 std::int64_t Conversation::askingPeriod() const {
-  const bool is_stranger = trouble_.fault != Fault::kNone && trouble_.fault != Fault::kSilentDevice;
+  const bool is_stranger = trouble_.fault != Fault::kNone &&
+                           trouble_.fault != Fault::kSilentDevice &&
+                           trouble_.fault != Fault::kNoScans;
   return is_stranger ? kStrangerPeriod : kAskingPeriod;
 }
 
@@ -208,6 +245,7 @@ void Conversation::put(const Message& message, const Moment& now) {
 
 const std::vector<std::uint8_t>& Conversation::send(const Moment& now) {
   outgoing_.clear();
+  giveUpOldFrame(now);
   judgeSilence(now);
   const bool is_quiet = !device_ || now.steady - last_scan_ >= kSilence;
   if (std::exchange(greet_, false)) {
@@ -232,7 +270,6 @@ const std::vector<std::uint8_t>& Conversation::stop(const Moment& now) {
 }
 
 void Conversation::command(const triangulation::HeadCommand& command, const Moment& now) {
-  if (command_) ++counts_.lost_commands;
   command_ = PendingCommand{{command}, now.steady, now.steady - kCommandPeriod, 0};
 }
 

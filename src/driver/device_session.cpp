@@ -8,6 +8,7 @@ namespace sightline::driver {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{20};
+constexpr std::chrono::milliseconds kRetryPeriod{100};  // with a port that is somebody else's, say
 
 }  // namespace
 
@@ -48,9 +49,15 @@ SessionStatus DeviceSession::status() const {
   return status_;
 }
 
+// A port that cannot be read, though it opens, keeps its name until bytes come.
 void DeviceSession::open() {
-  port_trouble_ = line_.open(config_.port, config_.baud_rate);
-  if (!line_.isOpen()) return;
+  const Trouble found = line_.open(config_.port, config_.baud_rate);
+  if (!line_.isOpen() || port_trouble_.fault != Fault::kPortFailed) port_trouble_ = found;
+  if (!line_.isOpen()) {
+    const bool may_come = found.fault == Fault::kNoSuchPort;
+    next_try_ = std::chrono::steady_clock::now() + (may_come ? kTick : kRetryPeriod);
+    return;
+  }
   ++connections_;
   conversation_.open(Moment::now());
   read();
@@ -62,8 +69,11 @@ void DeviceSession::read() {
                                  if (error) {  // the cable was pulled: the next tick looks for it
                                    port_trouble_ = trouble(Fault::kPortFailed,
                                                            config_.port + ": " + error.message());
-                                   return line_.close();
+                                   next_try_ = std::chrono::steady_clock::now() + kRetryPeriod;
+                                   line_.close();
+                                   return updateStatus();
                                  }
+                                 port_trouble_ = {};
                                  bytes_ += size;
                                  conversation_.receive({buffer_.data(), size}, Moment::now());
                                  read();
@@ -71,7 +81,7 @@ void DeviceSession::read() {
 }
 
 void DeviceSession::onTick() {
-  if (!line_.isOpen()) open();
+  if (!line_.isOpen() && std::chrono::steady_clock::now() >= next_try_) open();
   send();
   updateStatus();
   timer_.expires_after(kTick);
@@ -87,13 +97,15 @@ void DeviceSession::send() {
 void DeviceSession::updateStatus() {
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.is_scanning = line_.isOpen() && conversation_.isScanning(Moment::now());
-  status_.trouble = line_.isOpen() ? conversation_.currentTrouble() : port_trouble_;
+  const bool is_of_port = port_trouble_.fault != Fault::kNone;
+  status_.trouble = is_of_port ? port_trouble_ : conversation_.currentTrouble();
   status_.device = conversation_.device();
   status_.connections = connections_;
   status_.counts = conversation_.counts();
   status_.line = conversation_.lineCounts();
   status_.latency = conversation_.clock().latency();
   status_.drift = conversation_.clock().drift();
+  status_.clock_resets = conversation_.clock().resets();
   status_.bytes = bytes_;
 }
 

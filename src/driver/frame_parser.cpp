@@ -58,6 +58,11 @@ std::optional<Frame> FrameParser::next() {
   return std::nullopt;
 }
 
+std::size_t FrameParser::awaited() const {
+  if (waiting() < kHeaderSize) return kHeaderSize;
+  return kHeaderSize + payloadSize(buffer_.data() + begin_) + kTrailerSize;
+}
+
 // Moves on to what may be the beginning of a frame.
 bool FrameParser::findSync() {
   while (begin_ < end_) {

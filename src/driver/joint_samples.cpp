@@ -25,4 +25,13 @@ std::vector<std::size_t> jointSamples(const std::vector<double>& angles, double 
   return samples;
 }
 
+double jointRate(const std::vector<double>& angles, std::size_t sample, double sample_rate) {
+  const auto reach =
+      std::max<std::size_t>(1, static_cast<std::size_t>(0.5 * kInterval * sample_rate));
+  const std::size_t from = sample - std::min(sample, reach);
+  const std::size_t to = std::min(angles.size() - 1, sample + reach);
+  if (from == to) return 0.0;
+  return (angles[to] - angles[from]) * sample_rate / static_cast<double>(to - from);
+}
+
 }  // namespace sightline::driver

@@ -9,7 +9,7 @@ void ScanQueue::push(const triangulation::RawScan& scan) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (scans_.size() == capacity_) {
       ++overruns_;
-      return;
+      scans_.pop_front();
     }
     scans_.push_back(scan);
   }

@@ -2,6 +2,8 @@
 
 #include <cerrno>
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -32,13 +34,17 @@ Fault faultOf(const error_code& error) {
   }
 }
 
-// TIOCEXCL keeps out everybody but root, the lock those who ask for it.
-error_code claim(int handle) {
-  if (flock(handle, LOCK_EX | LOCK_NB) != 0 || ioctl(handle, TIOCEXCL) != 0) {
-    return {errno, boost::system::system_category()};
-  }
-  tcflush(handle, TCIOFLUSH);
-  return {};
+error_code lastError() {
+  return {errno, boost::system::system_category()};
+}
+
+// Every byte as it is. The rest of the settings is asio's.
+error_code makeRaw(int handle) {
+  termios settings{};
+  if (tcgetattr(handle, &settings) != 0) return lastError();
+  cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  return tcsetattr(handle, TCSANOW, &settings) == 0 ? error_code() : lastError();
 }
 
 }  // namespace
@@ -54,15 +60,38 @@ error_code SerialLine::configure(int baud_rate) {
   return error;
 }
 
+SerialLine::~SerialLine() {
+  close();
+}
+
+// Nothing is changed on a port before it is ours: TIOCEXCL keeps out everybody but root, the lock
+// those who ask for it.
 Trouble SerialLine::open(const std::string& path, int baud_rate) {
   close();
+  const auto fail = [&](const error_code& error) {
+    close();
+    return trouble(faultOf(error), path + ": " + error.message());
+  };
+  const int handle = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (handle < 0) return fail(lastError());
+  if (isatty(handle) == 0 || flock(handle, LOCK_EX | LOCK_NB) != 0) {
+    const error_code error = lastError();
+    ::close(handle);
+    return fail(error);
+  }
   error_code error;
-  port_.open(path, error);
-  if (!error) error = claim(port_.native_handle());
-  if (!error) error = configure(baud_rate);
-  if (!error) return {};
-  close();
-  return trouble(faultOf(error), path + ": " + error.message());
+  port_.assign(handle, error);
+  if (!error && ioctl(handle, TIOCEXCL) != 0) error = lastError();
+  if (!error) error = makeRaw(handle);
+  if (error) return fail(error);
+  error = configure(baud_rate);
+  if (error) {
+    close();
+    return trouble(faultOf(error),
+                   fmt::format("{} at a baud_rate of {}: {}", path, baud_rate, error.message()));
+  }
+  tcflush(handle, TCIOFLUSH);
+  return {};
 }
 
 void SerialLine::close() {

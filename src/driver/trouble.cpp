@@ -6,7 +6,7 @@
 namespace sightline::driver {
 
 const char* nameOf(Fault fault) {
-  constexpr std::array<const char*, 12> kNames{"none",
+  constexpr std::array<const char*, 13> kNames{"none",
                                                "no such port",
                                                "no permission",
                                                "port busy",
@@ -14,6 +14,7 @@ const char* nameOf(Fault fault) {
                                                "port failed",
                                                "silent device",
                                                "garbage",
+                                               "no scans",
                                                "wrong device",
                                                "wrong protocol version",
                                                "wrong serial number",

@@ -23,6 +23,7 @@ namespace {
 
 // robot_state_publisher keeps one message waiting: what comes faster is lost to tf.
 constexpr std::chrono::milliseconds kJointInterval{1};
+constexpr std::int64_t kCorrection = 1'000'000'000;  // [ns]
 
 class SyncScanDriverNode {
  public:
@@ -80,6 +81,10 @@ SyncScanDriverNode::SyncScanDriverNode(ros::NodeHandle node, ros::NodeHandle pri
   const auto joint = headJointOf(config_, node, private_node.getNamespace());
   joint.requireScanOrigin(sensor.origin.position(), "robot description");
   updater_.setHardwareID(sensor.serial);
+  if (config_.calibration.empty()) {
+    ROS_WARN("no calibration file: ranges are as the profile of %s has them",
+             sensor.serial.c_str());
+  }
   session_ = std::make_unique<driver::DeviceSession>(
       config_.session, sensor.serial, static_cast<std::size_t>(sensor.scan.beams),
       [this](const triangulation::RawScan& raw) { queue_.push(raw); });
@@ -87,7 +92,7 @@ SyncScanDriverNode::SyncScanDriverNode(ros::NodeHandle node, ros::NodeHandle pri
       node, config_.names, joint.limits, updater_,
       [this](const triangulation::HeadCommand& command) { session_->command(command); });
   diagnostics_ = std::make_unique<bridge::DeviceDiagnostics>(
-      config_.session, *session_, 1.0 / sensor.scan.scanPeriod(), updater_);
+      config_.session, *session_, queue_, 1.0 / sensor.scan.scanPeriod(), updater_);
   diagnostics_timer_ = node.createWallTimer(
       ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { updater_.update(); });
   worker_ = std::thread([this] { work(); });
@@ -112,11 +117,12 @@ void SyncScanDriverNode::publishJoint(const triangulation::RawScan& raw) {
     if (i > 0 && raw.head_angles[i] != head_angle_) std::this_thread::sleep_for(kJointInterval);
     const std::int64_t stamp =
         raw.stamp + std::llround(1e9 * static_cast<double>(i) / sample_rate_);
-    const double angle = raw.head_angles[i];
-    const double rate = (angle - head_angle_) / (1e-9 * static_cast<double>(stamp - joint_stamp_));
-    topics_->publishJoint(stamp, angle, rate);
+    head_angle_ = raw.head_angles[i];
+    // What goes back a little is a correction of the clock, which tf would not take.
+    const bool goes_back = stamp <= joint_stamp_ && joint_stamp_ - stamp < kCorrection;
+    if (goes_back) continue;
+    topics_->publishJoint(stamp, head_angle_, driver::jointRate(raw.head_angles, i, sample_rate_));
     joint_stamp_ = stamp;
-    head_angle_ = angle;
   }
 }
 

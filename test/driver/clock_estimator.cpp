@@ -150,6 +150,19 @@ TEST(ClockEstimator, LateMessagesDoNotMatter) {
   EXPECT_NEAR(1e-9 * static_cast<double>(*estimator.hostTime(device.clockAt(30.0))), 30.0, 2e-4);
 }
 
+// A host that was held up gets everything at once.
+TEST(ClockEstimator, HeldUpHostKeepsTheClock) {
+  ClockEstimator estimator;
+  Contact contact({}, estimator);
+  contact.go(1.0, 30.0);
+  const Device device;
+  for (int i = 0; i < 30; ++i) {
+    estimator.observeArrival(device.clockAt(30.0 + 0.1 * i), nanoseconds(33.0 + 1e-4 * i));
+  }
+  EXPECT_EQ(estimator.resets(), 0U);
+  EXPECT_NEAR(1e-9 * static_cast<double>(*estimator.hostTime(device.clockAt(33.0))), 33.0, 2e-4);
+}
+
 TEST(ClockEstimator, DriftIsLimited) {
   ClockConfig config;
   config.max_drift = 50.0;

@@ -26,6 +26,13 @@ TEST(JointSamples, HeadThatTurnsIsToldEveryHundredthOfASecond) {
   EXPECT_THAT(jointSamples({0.1, 0.2, 0.3}, 0.0, 10.0), ElementsAre(0, 1, 2)) << "slow sampling";
 }
 
+TEST(JointSamples, RateIsThatOfTheHead) {
+  std::vector<double> angles;
+  for (int i = 0; i < 256; ++i) angles.push_back(1e-4 * std::round(1e4 * 0.8 * i / 2500.0));
+  for (const std::size_t i : {0, 100, 255}) EXPECT_NEAR(jointRate(angles, i, 2500.0), 0.8, 0.03);
+  EXPECT_EQ(jointRate({0.3}, 0, 2500.0), 0.0);
+}
+
 TEST(ScanQueue, IsFirstInFirstOutAndBounded) {
   ScanQueue queue(2);
   for (int i = 0; i < 3; ++i) {
@@ -34,8 +41,8 @@ TEST(ScanQueue, IsFirstInFirstOutAndBounded) {
     queue.push(scan);
   }
   EXPECT_EQ(queue.overruns(), 1U);
-  EXPECT_EQ(queue.pop()->stamp, 0);
   EXPECT_EQ(queue.pop()->stamp, 1);
+  EXPECT_EQ(queue.pop()->stamp, 2);
   queue.close();
   EXPECT_FALSE(queue.pop());
 }

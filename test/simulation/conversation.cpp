@@ -125,6 +125,19 @@ TEST_F(TwoEnds, SilenceIsAFaultAndEnds) {
   EXPECT_GT(host_.counts().lost_scans, 10U);
 }
 
+TEST_F(TwoEnds, RebootInTheMidstOfAFrameIsOvercome) {
+  connect();
+  run(1000 * kMs);
+  while (line_.empty() || line_.front().bytes.size() < 1000) run(kMs);
+  const auto cut = line_.front().bytes;
+  line_.clear();
+  host_.receive({cut.data(), cut.size() / 2}, moment());
+  const std::size_t before = scans_.size();
+  firmware_->boot(time_);
+  run(300 * kMs);
+  EXPECT_GT(scans_.size(), before);
+}
+
 TEST_F(TwoEnds, GarbageIsAFault) {
   host_.open(moment());
   const std::vector<std::uint8_t> line{'$', 'G', 'P', 'G', 'G', 'A', ',', 'S', 'L', '\n'};
@@ -133,7 +146,7 @@ TEST_F(TwoEnds, GarbageIsAFault) {
     host_.receive({line.data(), line.size()}, moment());
     host_.send(moment());
   }
-  EXPECT_THAT(host_.currentTrouble().text, HasSubstr("garbage: 200 bytes and no scan in 2 s"));
+  EXPECT_THAT(host_.currentTrouble().text, HasSubstr("garbage: bytes, and nothing whole for 2 s"));
 }
 
 TEST_F(TwoEnds, HeadCommandsAreObeyedOrRefused) {

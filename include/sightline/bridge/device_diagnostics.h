@@ -6,6 +6,7 @@
 #include <diagnostic_updater/update_functions.h>
 
 #include "sightline/driver/device_session.h"
+#include "sightline/driver/scan_queue.h"
 
 namespace sightline::bridge {
 
@@ -15,7 +16,8 @@ class DeviceDiagnostics {
  public:
   /// Registers with the updater. All of them have to live as long.
   DeviceDiagnostics(const driver::SessionConfig& config, const driver::DeviceSession& session,
-                    double scan_rate, diagnostic_updater::Updater& updater);
+                    const driver::ScanQueue& queue, double scan_rate,
+                    diagnostic_updater::Updater& updater);
 
   /// A scan was published; from any thread.
   void tick() { frequency_.tick(); }
@@ -28,9 +30,11 @@ class DeviceDiagnostics {
 
   driver::SessionConfig config_;
   const driver::DeviceSession& session_;
+  const driver::ScanQueue& queue_;
   double scan_rate_;  // [Hz], for the frequency's own use
   diagnostic_updater::FrequencyStatus frequency_;
-  driver::SessionStatus before_;  // at the last report
+  driver::SessionStatus before_;     // at the last report
+  std::size_t overruns_before_ = 0;  // likewise
 };
 
 }  // namespace sightline::bridge

@@ -31,8 +31,9 @@ class ClockEstimator {
  public:
   explicit ClockEstimator(const ClockConfig& config = {}) : config_(config) {}
 
-  /// A message left the device at `device` and was here at `host`. A clock that is off by more than
-  /// a second is a new one.
+  /// A message left the device at `device` and was here at `host`. One that is early by more than a
+  /// second is of a new clock; one that is so late has waited somewhere and tells nothing, unless
+  /// all have been for two seconds.
   void observeArrival(std::uint32_t device, std::int64_t host);
   /// A message left here at `host` and was with the device at `device`. Ignored before the first
   /// arrival.
@@ -57,6 +58,7 @@ class ClockEstimator {
     double ahead;
   };
 
+  bool isOtherClock(double late, std::int64_t host);
   double deviceSeconds(std::uint32_t device) const;
   double aheadAt(double device) const { return ahead_ + slope_ * device; }
   void forgetBefore(double device);
@@ -71,6 +73,7 @@ class ClockEstimator {
   double slope_ = 0.0;
   double ahead_ = 0.0;      // of the line at device time 0
   double held_back_ = 0.0;  // between the line of the arrivals and the least late departure [s]
+  std::optional<std::int64_t> late_since_;  // host time [ns]
   std::size_t resets_ = 0;
 };
 

@@ -37,7 +37,7 @@ struct ConversationCounts {
   std::size_t saturated_scans = 0;
   std::size_t reboots = 0;
   std::size_t refused_commands = 0;  ///< by the device
-  std::size_t lost_commands = 0;     ///< not acknowledged in time
+  std::size_t lost_commands = 0;     ///< neither acknowledged in time nor replaced before
 };
 
 /// The host's side of the wire format: asks who is there, has it scan, keeps its clock, and asks
@@ -80,7 +80,9 @@ class Conversation {
   };
 
   void take(const Frame& frame, const Moment& now);
-  void refuseVersion(int version);
+  void takeFrames(const Moment& now);
+  void giveUpOldFrame(const Moment& now);
+  void refuseVersion(int version, const Moment& now);
   bool isOfDevice(const Frame& scan);
   void takeIdentity(const Identity& identity);
   Trouble faultOf(const Identity& identity) const;
@@ -110,8 +112,10 @@ class Conversation {
   triangulation::RawScan scan_;
   std::vector<std::uint8_t> outgoing_;
   std::uint16_t sequence_ = 0;
-  std::size_t bytes_ = 0;       // since the line was opened, or the last scan
-  std::int64_t last_scan_ = 0;  // or the opening of the line
+  std::int64_t begun_ = 0;       // when the bytes that wait in the parser began to
+  std::int64_t last_byte_ = 0;   // or the opening of the line, like the next two
+  std::int64_t last_frame_ = 0;  // a whole one
+  std::int64_t last_scan_ = 0;
   std::int64_t last_asked_ = 0;
   std::int64_t last_ping_ = 0;
   bool greet_ = false;  // a device has just said who it is

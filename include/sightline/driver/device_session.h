@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -31,9 +32,10 @@ struct SessionStatus {
   std::size_t connections = 0;  ///< openings of the port
   ConversationCounts counts;
   FrameParser::Counts line;
-  double latency = 0.0;   ///< [s]
-  double drift = 0.0;     ///< of the device clock: host seconds a device second, less one
-  std::size_t bytes = 0;  ///< received
+  double latency = 0.0;          ///< [s]
+  double drift = 0.0;            ///< of the device clock: host seconds a device second, less one
+  std::size_t clock_resets = 0;  ///< of a device clock that jumped by itself
+  std::size_t bytes = 0;         ///< received
 };
 
 /// A device at a serial port, from now until the end of the object: opens the port whenever there
@@ -66,6 +68,7 @@ class DeviceSession {
   Conversation conversation_;
   std::array<std::uint8_t, 4096> buffer_{};
   Trouble port_trouble_;
+  std::chrono::steady_clock::time_point next_try_;  // to open the port
   std::size_t connections_ = 0;
   std::size_t bytes_ = 0;
 

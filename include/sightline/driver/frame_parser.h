@@ -32,6 +32,14 @@ class FrameParser {
   std::size_t append(ByteView bytes);
   /// The next whole frame, of any version. It is good until the next call of append() or next().
   std::optional<Frame> next();
+  /// Bytes that wait for the rest of their frame; 0 where nothing has begun.
+  std::size_t waiting() const { return end_ - begin_; }
+  /// Size of the frame that has begun, as far as it is known.
+  std::size_t awaited() const;
+  /// Takes what has begun for ruins: the rest of it has not come. next() goes on behind its start.
+  void giveUp() {
+    if (waiting() > 0) skip(1);
+  }
   /// Forgets a frame begun, as after opening the port; the counts go on.
   void clear() { begin_ = end_ = 0; }
 

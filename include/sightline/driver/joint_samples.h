@@ -14,4 +14,7 @@ namespace sightline::driver {
 std::vector<std::size_t> jointSamples(const std::vector<double>& angles, double previous,
                                       double sample_rate);
 
+/// Rate of the head [rad/s] about a sample: over a hundredth of a second, as far as the scan goes.
+double jointRate(const std::vector<double>& angles, std::size_t sample, double sample_rate);
+
 }  // namespace sightline::driver

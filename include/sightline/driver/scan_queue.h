@@ -14,14 +14,14 @@ namespace sightline::driver {
 /// byte late.
 class ScanQueue {
  public:
-  /// Nothing more is taken once so many wait.
+  /// Where so many wait, the oldest gives way.
   explicit ScanQueue(std::size_t capacity) : capacity_(capacity) {}
 
   void push(const triangulation::RawScan& scan);
   /// Waits for a scan; nothing once the queue is closed.
   std::optional<triangulation::RawScan> pop();
   void close();
-  /// Scans that there was no room for.
+  /// Scans that gave way.
   std::size_t overruns() const;
 
  private:

@@ -14,6 +14,9 @@ namespace sightline::driver {
 class SerialLine {
  public:
   explicit SerialLine(boost::asio::io_context& context) : port_(context) {}
+  ~SerialLine();
+  SerialLine(const SerialLine&) = delete;
+  SerialLine& operator=(const SerialLine&) = delete;
 
   /// Whatever came before is dropped. Without trouble the port is open.
   Trouble open(const std::string& path, int baud_rate);

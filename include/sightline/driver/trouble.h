@@ -14,6 +14,7 @@ enum class Fault {
   kPortFailed,
   kSilentDevice,
   kGarbage,
+  kNoScans,
   kWrongDevice,
   kWrongVersion,
   kWrongSerial,
