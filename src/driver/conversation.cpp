@@ -54,6 +54,7 @@ void Conversation::open(const Moment& now) {
   device_.reset();
   trouble_ = {};
   last_scan_ = last_byte_ = last_frame_ = now.steady;
+  broken_before_ = broken();
   last_asked_ = now.steady - kAskingPeriod;
 }
 
@@ -199,8 +200,13 @@ void Conversation::takeScan(const Moment& now) {
   scan_.stamp = *time + now.system - now.steady;
   ++counts_.scans;
   last_scan_ = now.steady;
+  broken_before_ = broken();
   trouble_ = {};
   on_scan_(scan_);
+}
+
+std::size_t Conversation::broken() const {
+  return parser_.counts().bad_headers + parser_.counts().bad_frames;
 }
 
 bool Conversation::isScanning(const Moment& now) const {
@@ -218,9 +224,9 @@ void Conversation::judgeSilence(const Moment& now) {
   if (now.steady - last_byte_ >= kPatience) {
     trouble_ = trouble(Fault::kSilentDevice,
                        fmt::format("nothing came for {:.0f} s", secondsSince(last_byte_)));
-  } else if (now.steady - last_frame_ >= kPatience) {
-    trouble_ = trouble(Fault::kGarbage, fmt::format("bytes, and nothing whole for {:.0f} s",
-                                                    secondsSince(last_frame_)));
+  } else if (now.steady - last_frame_ >= kPatience || broken() > broken_before_) {
+    trouble_ = trouble(Fault::kGarbage,
+                       fmt::format("bytes, and no scan for {:.0f} s", secondsSince(last_scan_)));
   } else if (!is_of_device) {
     trouble_ = trouble(Fault::kNoScans, fmt::format("it answers, but sent none for {:.0f} s",
                                                     secondsSince(last_scan_)));

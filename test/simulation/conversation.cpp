@@ -146,7 +146,7 @@ TEST_F(TwoEnds, GarbageIsAFault) {
     host_.receive({line.data(), line.size()}, moment());
     host_.send(moment());
   }
-  EXPECT_THAT(host_.currentTrouble().text, HasSubstr("garbage: bytes, and nothing whole for 2 s"));
+  EXPECT_THAT(host_.currentTrouble().text, HasSubstr("garbage: bytes, and no scan for 2 s"));
 }
 
 TEST_F(TwoEnds, HeadCommandsAreObeyedOrRefused) {

@@ -91,6 +91,7 @@ class Conversation {
   void takeScan(const Moment& now);
   void countLost();
   void observeArrival(const Frame& frame, const Moment& now);
+  std::size_t broken() const;
   void judgeSilence(const Moment& now);
   std::int64_t askingPeriod() const;
   void sendCommand(const Moment& now);
@@ -116,6 +117,7 @@ class Conversation {
   std::int64_t last_byte_ = 0;   // or the opening of the line, like the next two
   std::int64_t last_frame_ = 0;  // a whole one
   std::int64_t last_scan_ = 0;
+  std::size_t broken_before_ = 0;  // by then
   std::int64_t last_asked_ = 0;
   std::int64_t last_ping_ = 0;
   bool greet_ = false;  // a device has just said who it is
