@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
+
+#include "sightline/config/text_file.h"
 
 namespace sightline::config {
 
@@ -37,15 +37,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
 }  // namespace
 
 CsvTable CsvTable::readFile(const std::string& path) {
-  std::error_code unreadable;
-  if (std::filesystem::is_directory(path, unreadable)) {
-    throw Error(path, 0, "", "is a folder, not a file");
-  }
-  const std::ifstream file(path);
-  if (!file) throw Error(path, 0, "", "no such file, or not readable");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse(text.str(), path);
+  return parse(readText(path), path);
 }
 
 CsvTable CsvTable::parse(const std::string& text, const std::string& source) {

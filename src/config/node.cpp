@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -11,6 +10,8 @@
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
+
+#include "sightline/config/text_file.h"
 
 namespace sightline::config {
 
@@ -68,15 +69,7 @@ Node& Node::operator=(const Node& other) {
 }
 
 Node Node::readFile(const std::string& path) {
-  std::error_code unreadable;
-  if (std::filesystem::is_directory(path, unreadable)) {
-    throw Error(path, 0, "", "is a folder, not a file");
-  }
-  const std::ifstream file(path);
-  if (!file) throw Error(path, 0, "", "no such file, or not readable");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse(text.str(), path);
+  return parse(readText(path), path);
 }
 
 Node Node::parse(const std::string& text, const std::string& source) {

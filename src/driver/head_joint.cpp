@@ -1,8 +1,6 @@
 #include "sightline/driver/head_joint.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>
@@ -10,6 +8,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "sightline/config/error.h"
+#include "sightline/config/text_file.h"
 
 namespace sightline::driver {
 
@@ -104,10 +103,7 @@ HeadJoint HeadJoint::fromUrdf(const std::string& xml, const HeadFrames& frames,
 }
 
 HeadJoint HeadJoint::readFile(const std::string& path, const HeadFrames& frames) {
-  std::ifstream file(path);
-  if (!file) throw config::Error(path, 0, "", "no such file, or not readable");
-  const std::string xml{std::istreambuf_iterator<char>(file), {}};
-  return fromUrdf(xml, frames, path);
+  return fromUrdf(config::readText(path), frames, path);
 }
 
 void HeadJoint::requireScanOrigin(const Eigen::Vector2d& expected,
