@@ -22,7 +22,7 @@ void EmulatedFirmware::boot(std::int64_t time) {
   config_.identity.boot = static_cast<std::uint32_t>(random_());
   scanning_ = false;
   number_ = 0;
-  booted_ = clock_origin_ = time;
+  booted_ = clock_origin_ = line_free_ = time;
   clock_reading_ = config_.first_clock;
   parser_.clear();
   put(config_.identity, time);
