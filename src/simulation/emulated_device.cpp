@@ -249,6 +249,7 @@ void EmulatedDevice::report(Delivery& delivery) const {
   if (!on_scan_ || !delivery.frame.scan) return;
   DeliveredScan scan{std::move(*delivery.frame.scan), delivery.is_whole};
   scan.sent.scan.stamp += system_origin_;
+  scan.sent.measured.stamp += system_origin_;
   on_scan_(scan);
 }
 
