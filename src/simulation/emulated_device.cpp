@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -10,16 +11,23 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "sightline/config/error.h"
+
 namespace sightline::simulation {
 
 namespace {
 
-constexpr std::int64_t kLongestWait = 2'000'000;  // [ns]: a scan is sent no later than that
+constexpr std::int64_t kLongestWait = 2'000'000;    // [ns]: a scan is sent no later than that
+constexpr std::int64_t kRetryPeriod = 100'000'000;  // [ns]: of making a port that cannot be made
 
 template <class Clock>
 std::int64_t readClock() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
       .count();
+}
+
+std::int64_t nanoseconds(double seconds) {
+  return std::llround(1e9 * seconds);
 }
 
 }  // namespace
@@ -59,26 +67,35 @@ void EmulatedDevice::setDrift(double ppm) {
 }
 
 void EmulatedDevice::stall(double seconds) {
-  leave(Absence::kStall, seconds);
+  leave([=](std::int64_t time) { fallSilent(time, time + nanoseconds(seconds)); });
 }
 
 void EmulatedDevice::reboot(double seconds) {
-  leave(Absence::kReboot, seconds);
+  leave([=](std::int64_t time) {
+    fallSilent(time, time + nanoseconds(seconds));
+    forgetDeliveries();
+    boots_ = true;
+  });
 }
 
 void EmulatedDevice::disconnect(double seconds) {
-  leave(Absence::kDisconnection, seconds);
+  leave([=](std::int64_t time) { unplug(time, time + nanoseconds(seconds)); });
 }
 
-void EmulatedDevice::leave(Absence absence, double seconds) {
+void EmulatedDevice::leave(Task task) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   back_since_ = 0;
-  post([=](std::int64_t time) {
-    absence_ = absence;
-    absent_until_ = time + std::llround(1e9 * seconds);
-    deliveries_.clear();
+  tasks_.push_back([=](std::int64_t time) {
+    is_away_ = true;
+    if (!is_silent_) cut(time);
     arrivals_.clear();
-    if (absence == Absence::kDisconnection) terminal_.reset();
+    task(time);
   });
+}
+
+std::string EmulatedDevice::trouble() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return trouble_;
 }
 
 std::int64_t EmulatedDevice::now() const {
@@ -89,7 +106,7 @@ void EmulatedDevice::run() {
   while (!ends_) {
     const std::int64_t time = now();
     runTasks(time);
-    if (absence_ != Absence::kNone && time >= absent_until_) comeBack(time);
+    if (is_away_) comeBack(time);
     work(time);
     deliver(time);
     wait(time);
@@ -105,28 +122,65 @@ void EmulatedDevice::runTasks(std::int64_t now) {
   for (const Task& task : tasks) task(now);
 }
 
+// What was on its way waits as long as the device does.
+void EmulatedDevice::fallSilent(std::int64_t now, std::int64_t until) {
+  const std::int64_t from = is_silent_ ? silent_until_ : now;
+  is_silent_ = true;
+  if (until <= from) return;
+  silent_until_ = until;
+  for (Delivery& delivery : deliveries_) delivery.due += until - from;
+}
+
+void EmulatedDevice::unplug(std::int64_t now, std::int64_t until) {
+  unplugged_until_ = std::max(until, terminal_ ? now : unplugged_until_);
+  forgetDeliveries();
+  terminal_.reset();
+}
+
 void EmulatedDevice::comeBack(std::int64_t now) {
-  if (absence_ == Absence::kDisconnection) terminal_ = std::make_unique<PseudoTerminal>(path_);
-  if (absence_ == Absence::kReboot) firmware_.boot(now);
-  absence_ = Absence::kNone;
+  if (is_silent_ && now >= silent_until_) {
+    is_silent_ = false;
+    if (std::exchange(boots_, false)) firmware_.boot(now);
+  }
+  if (!terminal_ && now >= unplugged_until_) plugIn(now);
+  if (is_silent_ || !terminal_) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!tasks_.empty()) return;  // it may have been told to leave again
+  is_away_ = false;
   back_since_ = now + steady_origin_;
 }
 
+void EmulatedDevice::plugIn(std::int64_t now) {
+  std::string trouble;
+  try {
+    terminal_ = std::make_unique<PseudoTerminal>(path_);
+  } catch (const config::Error& error) {
+    trouble = error.what();
+    terminal_.reset();
+    is_away_ = true;
+    unplugged_until_ = now + kRetryPeriod;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  trouble_ = trouble;
+}
+
 void EmulatedDevice::work(std::int64_t now) {
-  if (absence_ == Absence::kStall || absence_ == Absence::kReboot) return firmware_.sleep(now);
   listen(now);
+  if (is_silent_) return firmware_.sleep(now);
   hear(now);
   firmware_.advance(now);
   ship();
 }
 
+// While the device is silent, what comes is lost; it would be obeyed late otherwise.
 void EmulatedDevice::listen(std::int64_t now) {
   if (!terminal_) return;
   std::array<std::uint8_t, 4096> buffer{};
   const ssize_t size = read(terminal_->handle(), buffer.data(), buffer.size());
-  if (size <= 0) return;
+  if (size < 0 && errno == EIO) return plugIn(now);  // for whoever comes next
+  if (size <= 0 || is_silent_) return;
   Arrival arrival{{buffer.begin(), buffer.begin() + size}, now + cable_.delay()};
-  arrival.due += std::llround(1e9 * driver::lineSeconds(arrival.bytes.size(), baud_rate_));
+  arrival.due += nanoseconds(driver::lineSeconds(arrival.bytes.size(), baud_rate_));
   cable_.pass(arrival.bytes);
   if (!arrivals_.empty()) arrival.due = std::max(arrival.due, arrivals_.back().due);
   arrivals_.push_back(std::move(arrival));
@@ -152,20 +206,50 @@ void EmulatedDevice::ship() {
 }
 
 void EmulatedDevice::deliver(std::int64_t now) {
+  if (is_silent_) return;
   for (; !deliveries_.empty() && deliveries_.front().due <= now; deliveries_.pop_front()) {
     Delivery& delivery = deliveries_.front();
     const auto& bytes = delivery.frame.bytes;
-    const ssize_t written =
-        terminal_ ? write(terminal_->handle(), bytes.data(), bytes.size()) : ssize_t{0};
-    if (written > 0) bytes_sent_ += static_cast<std::size_t>(written);
-    report(delivery, written == static_cast<ssize_t>(bytes.size()));
+    if (!send(bytes.data(), bytes.size())) delivery.is_whole = false;
+    report(delivery);
   }
 }
 
-void EmulatedDevice::report(Delivery& delivery, bool is_written) const {
+// Delivers what has come up to now, also of the frame that is still coming; its rest stays.
+void EmulatedDevice::cut(std::int64_t now) {
+  deliver(now);
+  if (deliveries_.empty()) return;
+  Delivery& delivery = deliveries_.front();
+  auto& bytes = delivery.frame.bytes;
+  const double left = 1e-9 * static_cast<double>(delivery.due - now) /
+                      driver::lineSeconds(std::max<std::size_t>(1, bytes.size()), baud_rate_);
+  const double share = 1.0 - std::min(1.0, left);
+  const auto come = static_cast<std::ptrdiff_t>(share * static_cast<double>(bytes.size()));
+  if (!send(bytes.data(), static_cast<std::size_t>(come))) delivery.is_whole = false;
+  bytes.erase(bytes.begin(), bytes.begin() + come);
+}
+
+void EmulatedDevice::forgetDeliveries() {
+  for (Delivery& delivery : deliveries_) {
+    delivery.is_whole = false;
+    report(delivery);
+  }
+  deliveries_.clear();
+}
+
+// Whether there was room for all of it.
+bool EmulatedDevice::send(const std::uint8_t* bytes, std::size_t size) {
+  if (size == 0) return true;
+  const ssize_t written = terminal_ ? write(terminal_->handle(), bytes, size) : ssize_t{0};
+  if (written > 0) bytes_sent_ += static_cast<std::size_t>(written);
+  return written == static_cast<ssize_t>(size);
+}
+
+void EmulatedDevice::report(Delivery& delivery) const {
   if (!on_scan_ || !delivery.frame.scan) return;
-  DeliveredScan scan{std::move(*delivery.frame.scan), delivery.is_whole && is_written};
+  DeliveredScan scan{std::move(*delivery.frame.scan), delivery.is_whole};
   scan.sent.scan.stamp += system_origin_;
+  scan.sent.measured.stamp += system_origin_;
   on_scan_(scan);
 }
 
@@ -175,8 +259,7 @@ void EmulatedDevice::wait(std::int64_t now) const {
   if (!arrivals_.empty()) until = std::min(until, arrivals_.front().due);
   const std::int64_t left = std::max<std::int64_t>(0, until - this->now());
   const timespec timeout{0, static_cast<long>(left)};
-  const bool listens = terminal_ && (absence_ == Absence::kNone);
-  pollfd master{listens ? terminal_->handle() : -1, POLLIN, 0};
+  pollfd master{terminal_ ? terminal_->handle() : -1, POLLIN, 0};
   ppoll(&master, 1, &timeout, nullptr);
 }
 

@@ -8,12 +8,6 @@
 
 namespace sightline::simulation {
 
-namespace {
-
-constexpr std::uint32_t kFemtoamperesPerCount = 50;  // ±0.42 µA, well beyond the nearest white wall
-
-}  // namespace
-
 EmulatedFirmware::EmulatedFirmware(const FirmwareConfig& config, driver::DeviceModel& model,
                                    std::uint64_t seed)
     : config_(config), model_(model), random_(randomStream(seed, 2)) {}
@@ -22,7 +16,7 @@ void EmulatedFirmware::boot(std::int64_t time) {
   config_.identity.boot = static_cast<std::uint32_t>(random_());
   scanning_ = false;
   number_ = 0;
-  booted_ = clock_origin_ = time;
+  booted_ = clock_origin_ = line_free_ = time;
   clock_reading_ = config_.first_clock;
   parser_.clear();
   put(config_.identity, time);
@@ -90,7 +84,7 @@ void EmulatedFirmware::sendScan(const triangulation::RawScan& scan, std::int64_t
   report_.femtoamperes_per_count = kFemtoamperesPerCount;
   driver::fillReport(scan, report_);
   put(report_, time);
-  SentScan sent{number_, {}};
+  SentScan sent{number_, {}, scan};
   driver::toRawScan(report_, sent.scan);
   sent.scan.stamp = scan.stamp;
   outbox_.back().scan = std::move(sent);

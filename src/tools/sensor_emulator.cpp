@@ -1,6 +1,8 @@
 // A synchronised-scan sensor that is not there, at a serial port that is none.
 #include <array>
+#include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -20,6 +22,8 @@
 namespace {
 
 using namespace sightline;
+
+constexpr int kTroublePeriod = 200;  // [ms]: of looking whether the port could come back
 
 struct Job {
   std::string port;
@@ -75,24 +79,45 @@ int catchSignals() {
   return signalfd(-1, &signals, SFD_CLOEXEC);
 }
 
+// Says once why the port is gone although it should be there.
+class TroubleReport {
+ public:
+  void update(const std::string& trouble) {
+    if (trouble != said_ && !trouble.empty()) std::fprintf(stderr, "%s\n", trouble.c_str());
+    said_ = trouble;
+  }
+
+ private:
+  std::string said_;
+};
+
 // Until a signal comes; standard input may end before.
-void obey(simulation::DeviceFaults& faults, int signals) {
+void obey(simulation::EmulatedDevice& device, simulation::DeviceFaults& faults, int signals) {
   Input input;
+  TroubleReport report;
   std::array<pollfd, 2> sources{pollfd{signals, POLLIN, 0}, pollfd{STDIN_FILENO, POLLIN, 0}};
-  while (poll(sources.data(), sources.size(), -1) >= 0 && sources[0].revents == 0) {
+  while (poll(sources.data(), sources.size(), kTroublePeriod) >= 0 && sources[0].revents == 0) {
+    report.update(device.trouble());
     if (sources[1].revents == 0) continue;
     if (!input.read()) sources[1].fd = -1;
     applyLines(input, faults);
   }
 }
 
-int emulate(const Job& job) {
-  const int signals = catchSignals();
+// Beyond 2^53 not every whole number has a double.
+std::uint64_t seedOf(const Job& job) {
+  if (job.seed >= 0.0 && job.seed <= 9007199254740992.0 && job.seed == std::floor(job.seed)) {
+    return static_cast<std::uint64_t>(job.seed);
+  }
+  throw tools::UsageError("--seed needs a whole number from 0 to 2^53");
+}
+
+int emulate(const Job& job, int signals) {
+  const std::uint64_t seed = seedOf(job);
   auto profile = job.profile ? simulation::ActiveSensorProfile::readFile(*job.profile)
                              : simulation::ActiveSensorProfile{};
   if (job.urdf) profile.takeHead(driver::HeadJoint::readFile(*job.urdf, {}), *job.urdf);
   const geometry::Pose2 pose(job.pose[0], job.pose[1], job.pose[2]);
-  const auto seed = static_cast<std::uint64_t>(job.seed);
   simulation::EmulatedDevice device(
       job.port, simulation::firmwareOf(profile),
       std::make_unique<simulation::ActiveSensorDevice>(profile, world::World::readFile(job.world),
@@ -100,13 +125,14 @@ int emulate(const Job& job) {
       seed);
   simulation::DeviceFaults faults(device);
   if (job.faults) faults.apply(*job.faults, "--faults");
-  obey(faults, signals);
+  obey(device, faults, signals);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  const int signals = catchSignals();
   Job job;
   tools::Program program(
       "sensor_emulator",
@@ -128,5 +154,5 @@ int main(int argc, char** argv) {
   std::vector<const char*> arguments;
   for (const std::string& word : words) arguments.push_back(word.c_str());
   return program.run(static_cast<int>(arguments.size()), arguments.data(),
-                     [&] { return emulate(job); });
+                     [&] { return emulate(job, signals); });
 }

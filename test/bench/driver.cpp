@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <numeric>
 #include <random>
@@ -172,11 +173,11 @@ void measureCables() {
   bursts->device().setCable(faults(0.0, 0.05, 0.0, 0.0));
   ruined->device().setCable(faults(0.01, 0.0, 0.0, 0.0));
   Disturbances disturbances(*unsteady);
-  std::thread disturber([&] { disturbances.run(); });
+  auto disturber = std::async(std::launch::async, [&] { disturbances.run(); });
   const double cpu_before = clean->driver().cpuSeconds();
   sleepFor(kSeconds);
   const double cpu = clean->driver().cpuSeconds() - cpu_before;
-  disturber.join();
+  disturber.get();
 
   const auto all = clean->judge();  // what did not arrive whole, the driver did not fetch in time
   print("driver.lost_scans", static_cast<double>(all.good_lost + all.broken), "scans");

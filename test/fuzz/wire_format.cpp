@@ -1,11 +1,12 @@
 // Any bytes, cut anywhere, read as the wire format: as they are, and with the checksums of whatever
 // looks like a frame put right, so that payloads are reached. A message that is understood is
-// written back to the same bytes.
+// written back to the same bytes, and the host's side of the conversation takes it all.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
 
+#include "sightline/driver/conversation.h"
 #include "sightline/driver/frame_parser.h"
 #include "sightline/driver/messages.h"
 
@@ -52,6 +53,15 @@ void checkRoundTrip(const Frame& frame) {
   }
 }
 
+#ifdef SIGHTLINE_PLANTED_BUG
+// Believes that a device knows no other results. Only frames with sound checksums come here.
+void nameResult(const Frame& answer) {
+  static const char* const kNames[] = {"done", "unknown", "beyond limits"};
+  if (answer.header.kind != FrameKind::kAcknowledgement || answer.payload.size < 2) return;
+  [[maybe_unused]] const char* const volatile name = kNames[answer.payload.data[1]];
+}
+#endif
+
 void checkMessages(const Frame& frame) {
   // A copy without a byte to spare, so that reading beyond its end is noticed.
   const std::vector<std::uint8_t> payload(frame.payload.data,
@@ -66,6 +76,9 @@ void checkMessages(const Frame& frame) {
   checkRoundTrip<Acknowledgement>(exact);
   checkRoundTrip<Pong>(exact);
   checkRoundTrip<ScanReport>(exact);
+#ifdef SIGHTLINE_PLANTED_BUG
+  nameResult(exact);
+#endif
 }
 
 // The number of frames, fed in pieces of such a size.
@@ -81,6 +94,47 @@ std::size_t parse(const std::vector<std::uint8_t>& bytes, std::size_t piece) {
   return parser.counts().frames;
 }
 
+// A device of few samples, so that inputs may be short. Scans that are handed over make sense.
+class Talk {
+ public:
+  void hear(const std::vector<std::uint8_t>& bytes, std::size_t piece) {
+    conversation_.open(now_);
+    for (std::size_t taken = 0; taken < bytes.size(); taken += piece) {
+      conversation_.receive({bytes.data() + taken, std::min(piece, bytes.size() - taken)}, now_);
+      pass(20'000'000);
+    }
+    conversation_.command({}, now_);
+    for (int i = 0; i < 20; ++i) pass(100'000'000);
+    conversation_.stop(now_);
+  }
+
+ private:
+  static constexpr std::size_t kSamples = 4;
+
+  void pass(std::int64_t nanoseconds) {
+    now_.steady += nanoseconds;
+    now_.system += nanoseconds;
+    answer(conversation_.send(now_));
+    conversation_.isScanning(now_);
+  }
+  // Whatever the host sends can be read.
+  void answer(const std::vector<std::uint8_t>& bytes) {
+    device_.append({bytes.data(), bytes.size()});
+    std::size_t understood = 0;
+    while (const auto frame = device_.next()) {
+      understood += kHeaderSize + frame->payload.size + kTrailerSize;
+    }
+    if (understood != bytes.size()) std::abort();
+  }
+  static void check(const sightline::triangulation::RawScan& scan) {
+    if (scan.currents.size() != kSamples || scan.head_angles.size() != kSamples) std::abort();
+  }
+
+  FrameParser device_;
+  Moment now_{1'000'000'000'000, 1'700'000'000'000'000'000};
+  Conversation conversation_{{"SS-0001", kSamples, 460800, {}}, check};
+};
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -89,6 +143,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
   for (const auto& stream : {bytes, mended(bytes)}) {
     if (parse(stream, piece) != parse(stream, stream.size() + 1)) std::abort();
+    Talk().hear(stream, piece);
   }
   return 0;
 }

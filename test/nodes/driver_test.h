@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <functional>
@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "nodes/recorder.h"
+#include "sightline/RangeScan.h"
 #include "sightline/simulation/active_sensor_device.h"
 #include "sightline/simulation/emulated_device.h"
 #include "sightline/simulation/scanner.h"
@@ -129,17 +130,22 @@ class DriverTest : public ::testing::Test {
         << ns << ": " << key << " " << diagnostics_.value(name, key);
   }
 
+  static bool isOf(const RangeScan& message, const triangulation::RawScan& scan) {
+    const auto isSame = [](float current, const triangulation::Photocurrents& pair) {
+      return current == static_cast<float>(pair.total());
+    };
+    return std::equal(message.currents.begin(), message.currents.end(), scan.currents.begin(),
+                      scan.currents.end(), isSame);
+  }
   void remember(const simulation::DeliveredScan& scan) {
     const std::lock_guard<std::mutex> lock(mutex_);
     sent_.push_back(scan);
   }
-  // The scan that was sent nearest to a stamp.
-  std::optional<simulation::DeliveredScan> sentAt(const ros::Time& stamp) const {
+  /// The scan that holds the same; noise makes every one different.
+  std::optional<simulation::SentScan> sourceOf(const RangeScan& message) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const simulation::DeliveredScan& scan : sent_) {
-      if (std::abs(1e-9 * static_cast<double>(scan.sent.scan.stamp) - stamp.toSec()) < 0.03) {
-        return scan;
-      }
+      if (isOf(message, scan.sent.scan)) return scan.sent;
     }
     return std::nullopt;
   }

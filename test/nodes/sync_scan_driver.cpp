@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 #include "nodes/driver_test.h"
+#include "nodes/quantisation.h"
 #include "nodes/recorder.h"
 #include "sightline/HeadCommand.h"
 #include "sightline/bridge/range_scan_conversion.h"
@@ -32,32 +33,30 @@ using testing::HasSubstr;
 
 using SyncScanDriver = test::DriverTest;
 
-TEST_F(SyncScanDriver, ScansAreWhatTheDeviceMeasured) {
+TEST_F(SyncScanDriver, ScansAndLinesAreWhatTheDeviceMeasured) {
   Recorder<RangeScan> range_scans("/clean/range_scan");
   Recorder<sensor_msgs::LaserScan> scans("/clean/scan");
   Recorder<sensor_msgs::JointState> joints("/clean/joint_states");
   start("clean");
-  const auto published = range_scans.atLeast(20);
-  const triangulation::Ranger ranger(ActiveSensorProfile{}.calibrated());
   bridge::RangeScanReader reader;
-  lines::LineExtractor extractor;
   std::size_t lines = 0;
-  for (const RangeScan& message : published) {
-    const auto sent = sentAt(message.header.stamp);
+  std::size_t others = 0;
+  for (const RangeScan& message : range_scans.atLeast(20)) {
+    const auto sent = sourceOf(message);
     ASSERT_TRUE(sent);
-    const auto range_scan = reader.read(message);
-    const auto direct = ranger.range(sent->sent.scan);
     EXPECT_EQ(message.header.frame_id, "projection");
-    EXPECT_EQ(range_scan.head_angles, direct.head_angles);
-    const auto found = extractor.extract(range_scan.scan);
-    const auto expected = lines::LineExtractor().extract(direct.scan);
+    const auto published = reader.read(message);
+    test::Quantisation quantisation(sent->measured);
+    quantisation.expectSame(published);
+    const auto found = lines::LineExtractor().extract(published.scan);
+    const auto expected = lines::LineExtractor().extract(quantisation.exact());
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i, ++lines) {
-      EXPECT_NEAR(found[i].line.rho, expected[i].line.rho, 1e-5);
-      EXPECT_NEAR(found[i].line.phi, expected[i].line.phi, 1e-5);
+      others += quantisation.areSame(found[i], expected[i]) ? 0 : 1;
     }
   }
   EXPECT_GT(lines, 0U);
+  EXPECT_LE(10 * others, lines) << "now and then a beam at a line's end is in or out by a hair";
   EXPECT_FLOAT_EQ(scans.atLeast(1)[0].time_increment, 0.0004F);
   EXPECT_EQ(joints.atLeast(1)[0].name, std::vector<std::string>{"head_joint"});
 }
@@ -116,6 +115,15 @@ class HeadCommands : public SyncScanDriver {
     publisher_.publish(command);
   }
   double angle() const { return joints_.next().position.at(0); }
+  // For a while by the stamps.
+  bool stands() const {
+    const auto first = joints_.next();
+    auto last = first;
+    while (!HasFailure() && last.header.stamp < first.header.stamp + ros::Duration(0.3)) {
+      last = joints_.next();
+    }
+    return last.position == first.position;
+  }
   void expectRefused(const std::string& reason) {
     const std::string name = "head/sync_scan_driver: input /head/head_command";
     EXPECT_TRUE(comesTrue([&] {
@@ -130,13 +138,11 @@ class HeadCommands : public SyncScanDriver {
 TEST_F(HeadCommands, TurnTheHead) {
   send(HeadCommand::POSITION, 0.7, 0.0, "head_joint");
   EXPECT_TRUE(comesTrue([&] { return std::abs(angle() - 0.7) < 0.0035; }));
-  send(HeadCommand::RATE, 0.0, -0.5);
-  EXPECT_TRUE(comesTrue([&] { return angle() < 0.3; }));
+  send(HeadCommand::RATE, 0.0, -0.2);
+  EXPECT_TRUE(comesTrue([&] { return angle() < 0.6; }));
   send(HeadCommand::STOP, 0.0, 0.0);
-  ros::WallDuration(0.4).sleep();
-  const double stopped = angle();
-  ros::WallDuration(0.3).sleep();
-  EXPECT_EQ(angle(), stopped);
+  EXPECT_TRUE(comesTrue([&] { return stands(); }));
+  EXPECT_GT(angle(), -1.0) << "it halts at its limits anyway";
 }
 
 TEST_F(HeadCommands, AreRefusedByNameAndTheHeadStaysWhereItIs) {

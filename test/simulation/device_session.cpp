@@ -1,21 +1,12 @@
 // The session with an emulated device at a pseudo terminal.
-#include <chrono>
-#include <functional>
-#include <mutex>
-#include <thread>
+#include <algorithm>
+#include <fstream>
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "sightline/driver/device_session.h"
-#include "sightline/simulation/emulated_device.h"
-#include "simulation/ramp_device.h"
-#include "temporary_folder.h"
+#include "simulation/port_test.h"
 
 namespace sightline::simulation {
 namespace {
@@ -23,44 +14,8 @@ namespace {
 using driver::DeviceSession;
 using testing::StartsWith;
 
-bool comesTrue(const std::function<bool()>& condition) {
-  for (int i = 0; i < 1000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
-
-class PortTest : public ::testing::Test {
- protected:
-  driver::SessionConfig config() const {
-    driver::SessionConfig config;
-    config.port = port_;
-    return config;
-  }
-
-  void plugIn() {
-    device_.emplace(port_, FirmwareConfig{}, std::make_unique<test::RampDevice>(), 1);
-  }
-
-  void startSession() {
-    session_.emplace(config(), "SS-0001", 256U,
-                     [this](const triangulation::RawScan&) { ++scans_; });
-  }
-
-  bool moreScansCome() {
-    const int before = scans_;
-    return comesTrue([&] { return scans_ > before + 2; });
-  }
-
-  std::string trouble() const { return session_->status().trouble.text; }
-
-  test::TemporaryFolder folder_;
-  const std::string port_ = folder_.path("port");
-  std::optional<EmulatedDevice> device_;
-  std::optional<DeviceSession> session_;
-  std::atomic<int> scans_{0};
-};
+using test::comesTrue;
+using test::PortTest;
 
 TEST_F(PortTest, ScansComeThroughATerminal) {
   plugIn();
@@ -68,7 +23,22 @@ TEST_F(PortTest, ScansComeThroughATerminal) {
   EXPECT_TRUE(moreScansCome());
   EXPECT_TRUE(comesTrue([&] { return session_->status().is_scanning; }));
   EXPECT_EQ(session_->status().connections, 1U);
-  EXPECT_EQ(session_->status().counts.lost_scans, 0U);
+}
+
+TEST_F(PortTest, WhatTheDeviceSendsWholeIsHandedOver) {
+  plugIn();
+  startSession();
+  EXPECT_TRUE(comesTrue([&] { return scans_ > 8; }));
+  session_.reset();
+  device_.reset();
+  std::vector<double> whole;
+  for (const DeliveredScan& scan : sent_) {
+    if (scan.is_whole) whole.push_back(scan.sent.scan.currents[0].first);
+  }
+  const auto begin = std::find(whole.begin(), whole.end(), received_.front());
+  ASSERT_GE(static_cast<std::size_t>(whole.end() - begin), received_.size());
+  whole.assign(begin, begin + static_cast<std::ptrdiff_t>(received_.size()));
+  EXPECT_EQ(received_, whole);
 }
 
 TEST_F(PortTest, AbsentPortIsWaitedFor) {
@@ -127,19 +97,27 @@ TEST_F(PortTest, FileIsNoPort) {
 TEST_F(PortTest, PermissionIsNeeded) {
   plugIn();
   chmod(port_.c_str(), 0);
-  // Root is let in everywhere, so somebody else tries.
-  const pid_t child = fork();
-  if (child == 0) {
-    if (geteuid() == 0 && (chmod(folder_.path("").c_str(), 0755) != 0 || setuid(65534) != 0))
-      _exit(2);
+  EXPECT_EQ(WEXITSTATUS(waitFor(asSomebodyElse([this] { return openPort(); }))),
+            static_cast<int>(driver::Fault::kNoPermission));
+}
+
+// Whoever claimed the port and was killed keeps nobody out.
+TEST_F(PortTest, ClaimEndsWithTheProgram) {
+  plugIn();
+  const auto open = [this] {
+    chmod(port_.c_str(), 0666);
+    return waitFor(asSomebodyElse([this] { return openPort(); }));
+  };
+  const auto claimAndDie = [this] {
     boost::asio::io_context context;
-    _exit(driver::SerialLine(context).open(port_, 460800).fault == driver::Fault::kNoPermission
-              ? 0
-              : 1);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+    driver::SerialLine line(context);
+    if (line.open(port_, 460800).fault != driver::Fault::kNone) return 1;
+    return raise(SIGKILL);
+  };
+  chmod(port_.c_str(), 0666);
+  const int end = waitFor(asSomebodyElse(claimAndDie));
+  ASSERT_TRUE(WIFSIGNALED(end) && WTERMSIG(end) == SIGKILL);
+  EXPECT_TRUE(comesTrue([&] { return WEXITSTATUS(open()) == 0; }));
 }
 
 }  // namespace

@@ -41,20 +41,25 @@ class EmulatedDevice {
 
   void setCable(const CableFaults& faults);
   void setDrift(double ppm);
-  /// Neither listens nor speaks for a while [s].
+  /// The three may overlap: each lasts its time [s]. A frame in whose midst one begins is cut
+  /// there.
+  ///
+  /// Neither listens nor speaks for a while; then goes on with what it was sending.
   void stall(double seconds);
-  /// As stall(), and has forgotten everything then.
+  /// As a stall, but everything is forgotten; starts anew once no stall lasts either.
   void reboot(double seconds);
-  /// The port is gone for a while [s]; the device goes on.
+  /// The port is gone; the device goes on.
   void disconnect(double seconds);
 
   /// When the last stall, reboot or disconnection was over, as of std::chrono::steady_clock [ns];
   /// 0 while one lasts or before the first one.
   std::int64_t backSince() const { return back_since_; }
   std::size_t bytesSent() const { return bytes_sent_; }
+  /// Why the port is not back although its time has come, which is tried again and again; empty
+  /// where all is well.
+  std::string trouble() const;
 
  private:
-  enum class Absence { kNone, kStall, kReboot, kDisconnection };
   struct Delivery {
     SentFrame frame;
     std::int64_t due = 0;
@@ -67,16 +72,22 @@ class EmulatedDevice {
   using Task = std::function<void(std::int64_t)>;
 
   void post(Task task);
-  void leave(Absence absence, double seconds);
+  void leave(Task task);
   void run();
   void runTasks(std::int64_t now);
+  void fallSilent(std::int64_t now, std::int64_t until);
+  void unplug(std::int64_t now, std::int64_t until);
   void comeBack(std::int64_t now);
+  void plugIn(std::int64_t now);
   void work(std::int64_t now);
   void listen(std::int64_t now);
   void hear(std::int64_t now);
   void ship();
   void deliver(std::int64_t now);
-  void report(Delivery& delivery, bool is_written) const;
+  void cut(std::int64_t now);
+  void forgetDeliveries();
+  bool send(const std::uint8_t* bytes, std::size_t size);
+  void report(Delivery& delivery) const;
   void wait(std::int64_t now) const;
   std::int64_t now() const;
 
@@ -89,13 +100,17 @@ class EmulatedDevice {
   std::unique_ptr<PseudoTerminal> terminal_;
   std::int64_t steady_origin_;
   std::int64_t system_origin_;
-  Absence absence_ = Absence::kNone;
-  std::int64_t absent_until_ = 0;
+  bool is_away_ = false;    // until it is silent no more and has its port
+  bool is_silent_ = false;  // stalled or booting
+  bool boots_ = false;      // once it is silent no more
+  std::int64_t silent_until_ = 0;
+  std::int64_t unplugged_until_ = 0;
   std::deque<Delivery> deliveries_;
   std::deque<Arrival> arrivals_;
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<Task> tasks_;
+  std::string trouble_;
   std::atomic<std::int64_t> back_since_{0};
   std::atomic<std::size_t> bytes_sent_{0};
   std::atomic<bool> ends_{false};

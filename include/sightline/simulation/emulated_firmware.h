@@ -21,10 +21,13 @@ struct FirmwareConfig {
   std::uint32_t first_clock = 0;          ///< what the clock shows when the device starts [µs]
 };
 
+constexpr std::uint32_t kFemtoamperesPerCount = 50;  ///< ±0.42 µA: beyond the nearest white wall
+
 /// A scan on its way, with what is true of it.
 struct SentScan {
   std::uint32_t number = 0;
   triangulation::RawScan scan;  ///< as the frame holds it: rounded; stamped with the true time [ns]
+  triangulation::RawScan measured;  ///< before it was rounded, stamped likewise
 };
 
 /// A frame as it leaves the device.

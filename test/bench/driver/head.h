@@ -86,7 +86,8 @@ class HeadSteps {
     compare(begin, ros::Time::now() - ros::Duration(0.5));
     print("driver.head.settle_s", settle_, "s");
     print("driver.head.angle_error_deg", geometry::degrees(error_), "deg");
-    std::printf("# driver.head: %zu samples compared, %zu unknown to tf\n", compared_, unknown_);
+    print("driver.head.unknown_samples", static_cast<double>(unknown_), "samples");
+    std::printf("# driver.head: %zu samples compared\n", compared_);
   }
 
  private:
