@@ -70,10 +70,6 @@ void printResiduals(const ParameterEstimate& estimate) {
   }
 }
 
-double degrees(double angle) {
-  return angle * 180.0 / geometry::kPi;
-}
-
 // Whether anything is left in the table: it would be a pattern in colour.
 plot::Panel tablePanel(const ParameterEstimate& estimate) {
   plot::Panel panel{"Image position",
@@ -84,7 +80,7 @@ plot::Panel tablePanel(const ParameterEstimate& estimate) {
                     {{"", plot::Style::kColouredPoints, {}}}};
   for (std::size_t i = 0; i < estimate.images.size(); ++i) {
     const auto& image = estimate.images[i];
-    panel.series[0].points.push_back({degrees(image.scan_angle), 1.0 / image.depth,
+    panel.series[0].points.push_back({geometry::degrees(image.scan_angle), 1.0 / image.depth,
                                       estimate.residuals[static_cast<Eigen::Index>(i)]});
   }
   return panel;
@@ -104,7 +100,7 @@ plot::Panel anglePanel(const ParameterEstimate& estimate) {
   for (std::size_t i = 0; i < estimate.images.size(); ++i) {
     const auto& image = estimate.images[i];
     panel.series[0].points.push_back(
-        {degrees(image.scan_angle), imageError(estimate, i), image.depth});
+        {geometry::degrees(image.scan_angle), imageError(estimate, i), image.depth});
   }
   return panel;
 }
