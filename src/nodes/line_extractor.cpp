@@ -80,8 +80,8 @@ LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle priva
   lines_publisher_ = node.advertise<LineSegmentArray>("lines", 10);
   marker_publisher_ = node.advertise<visualization_msgs::MarkerArray>("line_markers", 10);
   subscriber_ = config_.input == LineExtractorInput::kScan
-                    ? node.subscribe("scan", 10, &LineExtractorNode::onScan, this)
-                    : node.subscribe("range_scan", 10, &LineExtractorNode::onRangeScan, this);
+                    ? node.subscribe("scan", 100, &LineExtractorNode::onScan, this)
+                    : node.subscribe("range_scan", 100, &LineExtractorNode::onRangeScan, this);
   diagnostics_timer_ = node.createWallTimer(
       ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { updater_.update(); });
 }

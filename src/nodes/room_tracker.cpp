@@ -148,7 +148,7 @@ void RoomTrackerNode::addScanner(const std::string& topic) {
   scanners_.push_back(std::make_unique<Scanner>(topic, config_.noise, updater_));
   Scanner& scanner = *scanners_.back();
   scanner.subscriber = node_.subscribe<sensor_msgs::LaserScan>(
-      topic, 20, [this, &scanner](const sensor_msgs::LaserScanConstPtr& message) {
+      topic, 100, [this, &scanner](const sensor_msgs::LaserScanConstPtr& message) {
         onScan(scanner, message);
       });
 }

@@ -22,7 +22,7 @@ namespace sightline::nodes {
 namespace {
 
 // robot_state_publisher keeps one message waiting: what comes faster is lost to tf.
-constexpr std::chrono::milliseconds kJointInterval{2};
+constexpr std::chrono::milliseconds kJointInterval{5};
 constexpr std::int64_t kCorrection = 1'000'000'000;  // [ns]
 
 class SyncScanDriverNode {
