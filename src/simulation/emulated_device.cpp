@@ -241,7 +241,6 @@ void EmulatedDevice::forgetDeliveries() {
 bool EmulatedDevice::send(const std::uint8_t* bytes, std::size_t size) {
   if (size == 0) return true;
   const ssize_t written = terminal_ ? write(terminal_->handle(), bytes, size) : ssize_t{0};
-  if (written > 0) bytes_sent_ += static_cast<std::size_t>(written);
   return written == static_cast<ssize_t>(size);
 }
 

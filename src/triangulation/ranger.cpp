@@ -64,18 +64,16 @@ Ranger::Ranger(Calibration calibration)
           calibration_.parameters.origin.projected_vergence)) {}
 
 RangeReading Ranger::read(std::size_t beam, const Photocurrents& currents) const {
+  const double p = litPosition(currents);
+  return readAt(beam, currents.total(), p, p);
+}
+
+double Ranger::litPosition(const Photocurrents& currents) const {
   const SensorParameters& parameters = calibration_.parameters;
-  RangeReading reading;
-  if (!(currents.total() >= parameters.scan.min_current)) return reading;
-  const double p = imagePosition(currents, parameters.intrinsics.detector_length);
-  const auto found = calibration_.table.lookUp(beam, p);
-  reading.depth = found.depth - parameters.origin.x;
-  reading.range = reading.depth / geometry_->cosines()[beam];
-  reading.variance = variance(beam, currents.total(), p);
-  reading.kind = scan::classify(reading.range, *geometry_);
-  if (found.reach == CalibrationTable::Reach::kNearer) reading.kind = scan::ReturnKind::kTooNear;
-  if (found.reach == CalibrationTable::Reach::kFarther) reading.kind = scan::ReturnKind::kNothing;
-  return reading;
+  if (!(currents.total() >= parameters.scan.min_current)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return imagePosition(currents, parameters.intrinsics.detector_length);
 }
 
 double Ranger::sigma(double current) const {
@@ -84,22 +82,20 @@ double Ranger::sigma(double current) const {
                             parameters.intrinsics.detector_length);
 }
 
-double Ranger::variance(std::size_t beam, double current, double image_position) const {
-  const double gain =
-      calibration_.table.lookUp(beam, image_position).gain / geometry_->cosines()[beam];
-  return std::pow(gain * sigma(current), 2);
-}
-
-std::vector<double> Ranger::imagePositions(const RawScan& raw) const {
-  const SensorParameters& parameters = calibration_.parameters;
-  std::vector<double> positions;
-  positions.reserve(raw.currents.size());
-  for (const Photocurrents& currents : raw.currents) {
-    const bool is_lit = currents.total() >= parameters.scan.min_current;
-    positions.push_back(is_lit ? imagePosition(currents, parameters.intrinsics.detector_length)
-                               : std::numeric_limits<double>::quiet_NaN());
-  }
-  return positions;
+RangeReading Ranger::readAt(std::size_t beam, double current, double p, double p_of_gain) const {
+  RangeReading reading;
+  if (std::isnan(p)) return reading;
+  const CalibrationTable& table = calibration_.table;
+  const auto found = table.lookUp(beam, p);
+  const double gain = p == p_of_gain ? found.gain : table.lookUp(beam, p_of_gain).gain;
+  const double cosine = geometry_->cosines()[beam];
+  reading.depth = found.depth - calibration_.parameters.origin.x;
+  reading.range = reading.depth / cosine;
+  reading.variance = std::pow(gain / cosine * sigma(current), 2);
+  reading.kind = scan::classify(reading.range, *geometry_);
+  if (found.reach == CalibrationTable::Reach::kNearer) reading.kind = scan::ReturnKind::kTooNear;
+  if (found.reach == CalibrationTable::Reach::kFarther) reading.kind = scan::ReturnKind::kNothing;
+  return reading;
 }
 
 void Ranger::check(const RawScan& raw) const {
@@ -126,15 +122,18 @@ RangeScan Ranger::range(const RawScan& raw) const {
   scan.geometry = geometry_;
   scan.stamp = raw.stamp;
   scan.sensor_motion = headMotion(raw.head_angles, result.origin);
-  const std::vector<double> positions = imagePositions(raw);
+  std::vector<double> positions;
+  positions.reserve(raw.currents.size());
+  for (const Photocurrents& currents : raw.currents) positions.push_back(litPosition(currents));
   for (std::size_t beam = 0; beam < geometry_->beams(); ++beam) {
-    const RangeReading reading = read(beam, raw.currents[beam]);
     const double current = raw.currents[beam].total();
-    const auto neighbours = neighbouringPosition(positions, beam, kSameSurface * sigma(current));
+    const double p = positions[beam];
+    const double around =
+        neighbouringPosition(positions, beam, kSameSurface * sigma(current)).value_or(p);
+    const RangeReading reading = readAt(beam, current, p, around);
     scan.ranges.push_back(reading.range);
     scan.kinds.push_back(reading.kind);
-    scan.range_variances.push_back(neighbours ? variance(beam, current, *neighbours)
-                                              : reading.variance);
+    scan.range_variances.push_back(reading.variance);
     scan.intensities.push_back(current);
   }
   return result;

@@ -6,6 +6,7 @@
 
 #include "bench/sensor/calibration.h"
 #include "bench/sensor/edge.h"
+#include "bench/sensor/lines.h"
 #include "bench/sensor/table2.h"
 #include "sightline/simulation/active_sensor.h"
 
@@ -53,6 +54,7 @@ int main(int, char** argv) {
   bench::table2(profile);
   bench::calibration();
   bench::edges(profile);
+  bench::lineConsistency(profile);
   bench::drawSegmentsAgainstGate(
       profile,
       std::filesystem::path(argv[0]).replace_filename("segments_against_gate.png").string());

@@ -54,7 +54,6 @@ class EmulatedDevice {
   /// When the last stall, reboot or disconnection was over, as of std::chrono::steady_clock [ns];
   /// 0 while one lasts or before the first one.
   std::int64_t backSince() const { return back_since_; }
-  std::size_t bytesSent() const { return bytes_sent_; }
   /// Why the port is not back although its time has come, which is tried again and again; empty
   /// where all is well.
   std::string trouble() const;
@@ -112,7 +111,6 @@ class EmulatedDevice {
   std::vector<Task> tasks_;
   std::string trouble_;
   std::atomic<std::int64_t> back_since_{0};
-  std::atomic<std::size_t> bytes_sent_{0};
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

@@ -68,9 +68,11 @@ class Ranger {
   const std::shared_ptr<const scan::ScanGeometry>& geometry() const { return geometry_; }
 
  private:
-  double sigma(double current) const;
-  double variance(std::size_t beam, double current, double image_position) const;
-  std::vector<double> imagePositions(const RawScan& raw) const;
+  // NaN where there is too little light.
+  double litPosition(const Photocurrents& currents) const;
+  double sigma(double current) const;  // of the image position [m]
+  // The gain that scales the variance is that at another image position.
+  RangeReading readAt(std::size_t beam, double current, double p, double p_of_gain) const;
   void check(const RawScan& raw) const;
 
   Calibration calibration_;

@@ -78,8 +78,12 @@ inline void drawSegmentsAgainstGate(const simulation::ActiveSensorProfile& profi
           {gate, countSegments(scans, ahead, lines::PlainExtractor(config)).mean});
       full.points.push_back({gate, countSegments(scans, ahead, lines::LineExtractor(config)).mean});
     }
-    panel.series.push_back(plain);
-    panel.series.push_back(full);
+    for (const plot::Series& series : {plain, full}) {
+      std::printf("# segments against the gate, %s:", series.title.c_str());
+      for (const auto& point : series.points) std::printf(" %.1f: %.2f", point.x, point.y);
+      std::printf("\n");
+      panel.series.push_back(series);
+    }
   }
   plot::writePng({1000, 600, 1, {panel}}, path);
   std::printf("# segments against the gate are drawn in %s\n", path.c_str());
