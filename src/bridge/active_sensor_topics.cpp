@@ -22,7 +22,7 @@ void ActiveSensorNames::visit(config::FieldVisitor& visitor) {
 }
 
 ActiveSensorTopics::ActiveSensorTopics(ros::NodeHandle node, const ActiveSensorNames& names,
-                                       const triangulation::HeadLimits& limits,
+                                       const motion::HeadLimits& limits,
                                        diagnostic_updater::Updater& updater,
                                        OnHeadCommand on_command)
     : names_(names),
@@ -35,9 +35,9 @@ ActiveSensorTopics::ActiveSensorTopics(ros::NodeHandle node, const ActiveSensorN
       command_subscriber_(
           node.subscribe(names.head_command, 10, &ActiveSensorTopics::onHeadCommand, this)) {}
 
-void ActiveSensorTopics::publish(triangulation::RangeScan& range_scan) const {
+void ActiveSensorTopics::publish(motion::RangeScan& range_scan) const {
   range_scan.scan.frame = names_.frame;
-  range_scan.mount_frame = names_.mount_frame;
+  range_scan.head.mount_frame = names_.mount_frame;
   const RangeScan message = toMessage(range_scan);
   range_scan_publisher_.publish(message);
   scan_publisher_.publish(toLaserScan(message));

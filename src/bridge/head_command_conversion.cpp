@@ -6,8 +6,8 @@ namespace sightline::bridge {
 
 namespace {
 
-triangulation::HeadCommand::Mode modeOf(const HeadCommand& message) {
-  using Mode = triangulation::HeadCommand::Mode;
+motion::HeadCommand::Mode modeOf(const HeadCommand& message) {
+  using Mode = motion::HeadCommand::Mode;
   switch (message.mode) {
     case HeadCommand::STOP:
       return Mode::kStop;
@@ -22,12 +22,12 @@ triangulation::HeadCommand::Mode modeOf(const HeadCommand& message) {
 
 }  // namespace
 
-triangulation::HeadCommand fromMessage(const HeadCommand& message, const std::string& joint,
-                                       const triangulation::HeadLimits& limits) {
+motion::HeadCommand fromMessage(const HeadCommand& message, const std::string& joint,
+                                const motion::HeadLimits& limits) {
   if (!message.joint.empty() && message.joint != joint) {
     throw InvalidHeadCommand(fmt::format("for the joint '{}', not '{}'", message.joint, joint));
   }
-  const triangulation::HeadCommand command{modeOf(message), message.position, message.rate};
+  const motion::HeadCommand command{modeOf(message), message.position, message.rate};
   const std::string fault = limits.fault(command);
   if (!fault.empty()) throw InvalidHeadCommand(fault);
   return command;

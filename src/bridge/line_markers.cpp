@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "sightline/bridge/marker_drawing.h"
+#include "sightline/geometry/statistics.h"
 
 namespace sightline::bridge {
 
@@ -13,7 +14,6 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kSigmas95 = 1.959963984540054;
 constexpr int kBandSteps = 8;
 constexpr int kArcSteps = 16;
 // Above one another, so that none hides in another's plane.
@@ -56,7 +56,7 @@ void addWall(const geometry::LineSegment& segment, Marker& marker) {
 void addEnds(const geometry::LineSegment& segment, Marker& marker) {
   const Eigen::Vector2d along = segment.ends.direction();
   const auto bar = [&](const Eigen::Vector2d& end, double sigma, geometry::EndKind kind) {
-    const Eigen::Vector2d half = kSigmas95 * sigma * along;
+    const Eigen::Vector2d half = geometry::kNormal95 * sigma * along;
     addStroke(end - half, end + half, kEndHeight, colourOf(kind), colourOf(kind), marker);
   };
   bar(segment.ends.start, segment.start_sigma, segment.start_kind);
@@ -67,7 +67,7 @@ void addEnds(const geometry::LineSegment& segment, Marker& marker) {
 // the point's distance from the foot of the normal.
 double halfWidth(const geometry::PolarLine& line, const Eigen::Vector2d& point) {
   const Eigen::Vector2d jacobian(1.0, -line.direction().dot(point));
-  return kSigmas95 * std::sqrt(std::max(0.0, jacobian.dot(line.covariance * jacobian)));
+  return geometry::kNormal95 * std::sqrt(std::max(0.0, jacobian.dot(line.covariance * jacobian)));
 }
 
 // Two triangles between two rungs of a band.
@@ -114,7 +114,7 @@ void addArcBand(const geometry::Arc& arc, Marker& marker) {
     const Eigen::Vector2d direction = directionAt(arc, i);
     const Eigen::Vector3d jacobian(direction.x(), direction.y(), 1.0);
     const double half =
-        kSigmas95 * std::sqrt(std::max(0.0, jacobian.dot(arc.covariance * jacobian)));
+        geometry::kNormal95 * std::sqrt(std::max(0.0, jacobian.dot(arc.covariance * jacobian)));
     const std::array<geometry_msgs::Point, 2> here{
         toPoint(arc.centre + (arc.radius - half) * direction, kBandHeight),
         toPoint(arc.centre + (arc.radius + half) * direction, kBandHeight)};

@@ -82,7 +82,7 @@ pipeline::OdometryAids MotionInputs::aidsFor(scan::Scan& scan, const geometry::P
   aids.T_odom_base = pipeline::addMotion(
       scan, [this](std::int64_t stamp) { return wheels_.at(stamp); }, T_base_sensor);
   if (before) aids.turn = imu_.turn(*before, scan.stamp);
-  const auto end = scan.stamp + std::llround(1e9 * scan.geometry->timeOffsets().back());
+  const auto end = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets().back());
   const auto first = imu_.attitude(scan.stamp);
   const auto last = imu_.attitude(end);
   if (first && last) {

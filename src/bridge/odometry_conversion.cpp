@@ -7,7 +7,7 @@ namespace sightline::bridge {
 
 nav_msgs::Odometry toOdometryMessage(const OdometryHeader& header,
                                      const geometry::UncertainPose2& pose,
-                                     const UncertainTwist2& twist) {
+                                     const geometry::UncertainTwist2& twist) {
   nav_msgs::Odometry message;
   message.header.stamp = timeOf(header.stamp);
   message.header.frame_id = header.frame;

@@ -32,9 +32,9 @@ void checkHead(const RangeScan& message) {
 }
 
 void takeVariances(const RangeScan& message, scan::Scan& scan) {
-  scan.range_variances = message.variances;
+  scan.setRangeVariances(message.variances);
   for (std::size_t beam = 0; beam < scan.beams(); ++beam) {
-    const double variance = scan.range_variances[beam];
+    const double variance = scan.rangeVariances()[beam];
     if (scan.isValid(beam) && !(variance > 0.0 && std::isfinite(variance))) {
       throw scan::InvalidScan(fmt::format("a variance of {} m^2 at beam {}", variance, beam));
     }
@@ -43,7 +43,7 @@ void takeVariances(const RangeScan& message, scan::Scan& scan) {
 
 }  // namespace
 
-RangeScan toMessage(const triangulation::RangeScan& range_scan) {
+RangeScan toMessage(const motion::RangeScan& range_scan) {
   const sensor_msgs::LaserScan scan = toMessage(range_scan.scan);
   RangeScan message;
   message.header = scan.header;
@@ -55,12 +55,12 @@ RangeScan toMessage(const triangulation::RangeScan& range_scan) {
   message.range_min = scan.range_min;
   message.range_max = scan.range_max;
   message.ranges = scan.ranges;
-  message.variances = range_scan.scan.range_variances;
+  message.variances = range_scan.scan.rangeVariances();
   message.currents = scan.intensities;
-  message.head_angles = range_scan.head_angles;
-  message.mount_frame = range_scan.mount_frame;
-  message.origin_x = range_scan.origin.x();
-  message.origin_y = range_scan.origin.y();
+  message.head_angles = range_scan.head.angles;
+  message.mount_frame = range_scan.head.mount_frame;
+  message.origin_x = range_scan.head.origin.x();
+  message.origin_y = range_scan.head.origin.y();
   return message;
 }
 
@@ -80,17 +80,17 @@ sensor_msgs::LaserScan toLaserScan(const RangeScan& message) {
   return scan;
 }
 
-triangulation::RangeScan RangeScanReader::read(const RangeScan& message) {
+motion::RangeScan RangeScanReader::read(const RangeScan& message) {
   checkLengths(message);
   checkHead(message);
-  triangulation::RangeScan result;
+  motion::RangeScan result;
   result.scan = reader_.read(toLaserScan(message));
-  result.scan.intensities.assign(message.currents.begin(), message.currents.end());
+  result.scan.setIntensities({message.currents.begin(), message.currents.end()});
   takeVariances(message, result.scan);
-  result.head_angles = message.head_angles;
-  result.mount_frame = message.mount_frame;
-  result.origin = {message.origin_x, message.origin_y};
-  result.scan.sensor_motion = triangulation::headMotion(result.head_angles, result.origin);
+  result.head.angles = message.head_angles;
+  result.head.mount_frame = message.mount_frame;
+  result.head.origin = {message.origin_x, message.origin_y};
+  result.scan.setSensorMotion(motion::headMotion(result.head));
   return result;
 }
 

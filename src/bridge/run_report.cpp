@@ -57,7 +57,7 @@ double seconds(std::int64_t nanoseconds) {
 
 void countScans(const RecordedRun& run, RunReport& report) {
   std::set<std::int64_t> posed;
-  for (const logs::TimedPose& pose : run.poses) posed.insert(pose.stamp);
+  for (const geometry::StampedPose2& pose : run.poses) posed.insert(pose.stamp);
   const std::int64_t first = *posed.begin();
   const std::int64_t last = *posed.rbegin();
   for (const std::int64_t scan : run.scans) {
@@ -71,8 +71,8 @@ void countScans(const RecordedRun& run, RunReport& report) {
 
 void comparePoses(const RecordedRun& run, RunReport& report) {
   motion::PoseHistory truth(std::numeric_limits<std::int64_t>::max() / 2);
-  for (const logs::TimedPose& pose : run.truth) truth.add(pose.stamp, pose.pose);
-  for (const logs::TimedPose& pose : run.poses) {
+  for (const geometry::StampedPose2& pose : run.truth) truth.add(pose.stamp, pose.pose);
+  for (const geometry::StampedPose2& pose : run.poses) {
     const auto T_map_base = truth.at(pose.stamp);
     if (!T_map_base) {
       ++report.poses_without_truth;

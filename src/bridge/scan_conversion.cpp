@@ -28,7 +28,7 @@ void checkMessage(const sensor_msgs::LaserScan& message) {
 
 float rangeOf(const scan::Scan& scan, std::size_t beam) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  switch (scan.kinds[beam]) {
+  switch (scan.kinds()[beam]) {
     case scan::ReturnKind::kTooNear:
       return -kInfinity;
     case scan::ReturnKind::kNothing:
@@ -38,7 +38,7 @@ float rangeOf(const scan::Scan& scan, std::size_t beam) {
     case scan::ReturnKind::kValid:
       break;
   }
-  return static_cast<float>(scan.ranges[beam]);
+  return static_cast<float>(scan.ranges()[beam]);
 }
 
 }  // namespace
@@ -66,20 +66,16 @@ void ScanReader::rebuildGeometry(const sensor_msgs::LaserScan& message) {
 scan::Scan ScanReader::read(const sensor_msgs::LaserScan& message) {
   checkMessage(message);
   if (!hasGeometryOf(message)) rebuildGeometry(message);
-  scan::Scan scan;
-  scan.geometry = geometry_;
-  scan.stamp = nanoseconds(message.header.stamp);
+  scan::Scan scan(geometry_, nanoseconds(message.header.stamp),
+                  {message.ranges.begin(), message.ranges.end()},
+                  {message.intensities.begin(), message.intensities.end()});
   scan.frame = message.header.frame_id;
-  scan.ranges.assign(message.ranges.begin(), message.ranges.end());
-  scan.intensities.assign(message.intensities.begin(), message.intensities.end());
-  scan.kinds.reserve(scan.beams());
-  for (const double range : scan.ranges) scan.kinds.push_back(scan::classify(range, *geometry_));
   scan::applyNoise(noise_, scan);
   return scan;
 }
 
 sensor_msgs::LaserScan toMessage(const scan::Scan& scan) {
-  const scan::ScanGeometry& geometry = *scan.geometry;
+  const scan::ScanGeometry& geometry = *scan.geometry();
   sensor_msgs::LaserScan message;
   message.header.stamp = timeOf(scan.stamp);
   message.header.frame_id = scan.frame;
@@ -94,7 +90,7 @@ sensor_msgs::LaserScan toMessage(const scan::Scan& scan) {
   }
   message.ranges.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) message.ranges.push_back(rangeOf(scan, i));
-  message.intensities.assign(scan.intensities.begin(), scan.intensities.end());
+  message.intensities.assign(scan.intensities().begin(), scan.intensities().end());
   return message;
 }
 

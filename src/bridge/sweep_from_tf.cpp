@@ -45,14 +45,11 @@ bool SweepFromTf::addMotion(scan::Scan& scan) const {
   return pipeline::addMotion(scan, poseAt, geometry::Pose2()).has_value();
 }
 
-bool SweepFromTf::addMotion(triangulation::RangeScan& range_scan) const {
-  scan::Scan mount;
-  mount.geometry = range_scan.scan.geometry;
-  mount.stamp = range_scan.scan.stamp;
-  mount.frame = range_scan.mount_frame;
+bool SweepFromTf::addMotion(motion::RangeScan& range_scan) const {
+  scan::Scan mount(range_scan.scan.geometry(), range_scan.scan.stamp, range_scan.scan.ranges());
+  mount.frame = range_scan.head.mount_frame;
   if (!addMotion(mount)) return false;
-  range_scan.scan.sensor_motion =
-      triangulation::headMotion(range_scan.head_angles, range_scan.origin, mount.sensor_motion);
+  range_scan.scan.setSensorMotion(motion::headMotion(range_scan.head, mount.sensorMotion()));
   return true;
 }
 

@@ -136,8 +136,8 @@ MatchOutcome DeadReckoner::Impl::match(const scan::Scan& scan, const Pose2& T_ba
   const SearchWindow window =
       windowOf(config_.carrier, prior, std::min(elapsed + bridged_, kLongestSearch));
   MatchOutcome outcome = matcher_->match(sweep_, prior, window);
-  const double duration = scan.geometry->timeOffsets().back();
-  if (duration != 0.0 && scan.sensor_motion.empty() && outcome.state != MatchState::kFailed) {
+  const double duration = scan.geometry()->timeOffsets().back();
+  if (duration != 0.0 && scan.sensorMotion().empty() && outcome.state != MatchState::kFailed) {
     const Eigen::Vector3d found =
         geometry::between(T_odom_base_, outcome.T_odom_base).log() / elapsed;
     const Eigen::Vector3d acceleration = accelerationTo(found, elapsed);

@@ -44,7 +44,7 @@ void FloorConfig::visit(config::FieldVisitor& visitor) {
 
 std::vector<bool> beamsOnFloor(const FloorConfig& config, const scan::Scan& scan,
                                const SweepAttitude& attitude) {
-  const TiltedBeams beams(*scan.geometry, attitude);
+  const TiltedBeams beams(*scan.geometry(), attitude);
   std::vector<bool> on_floor(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i)) continue;
@@ -52,33 +52,51 @@ std::vector<bool> beamsOnFloor(const FloorConfig& config, const scan::Scan& scan
     const double doubt = 2.0 * config.tilt_sigma;
     if (std::abs(rise) < doubt) continue;  // as good as level
     const double reach = (rise < 0.0 ? config.height : config.headroom) / std::abs(rise);
-    on_floor[i] = scan.ranges[i] > reach / (1.0 + doubt / std::abs(rise));
+    on_floor[i] = scan.ranges()[i] > reach / (1.0 + doubt / std::abs(rise));
   }
   return on_floor;
 }
 
+namespace {
+
+// The scan with other angles and ranges; kinds, noise and motion stay.
+scan::Scan onGeometry(const scan::Scan& scan, std::shared_ptr<const scan::ScanGeometry> geometry,
+                      std::vector<double> ranges) {
+  scan::Scan result(std::move(geometry), scan.stamp, std::move(ranges), scan.intensities());
+  for (std::size_t i = 0; i < scan.beams(); ++i) result.setKind(i, scan.kinds()[i]);
+  result.setRangeVariances(scan.rangeVariances());
+  result.setSensorMotion(scan.sensorMotion());
+  result.frame = scan.frame;
+  result.angular_variance = scan.angular_variance;
+  result.transverse_variance = scan.transverse_variance;
+  result.motion_noise = scan.motion_noise;
+  return result;
+}
+
+}  // namespace
+
 scan::Scan levelled(const scan::Scan& scan, const SweepAttitude& attitude) {
-  const TiltedBeams beams(*scan.geometry, attitude);
-  scan::Scan level = scan;
+  const TiltedBeams beams(*scan.geometry(), attitude);
   std::vector<double> angles;
+  std::vector<double> ranges = scan.ranges();
   angles.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     const Eigen::Vector3d direction = beams.direction(i);
     const double bearing = std::atan2(direction.y(), direction.x());
     // As many turns as the beam had: the angles have to go on in one sense.
-    angles.push_back(scan.geometry->angles()[i] +
-                     geometry::wrapAngle(bearing - scan.geometry->angles()[i]));
-    level.ranges[i] *= direction.head<2>().norm();
+    angles.push_back(scan.geometry()->angles()[i] +
+                     geometry::wrapAngle(bearing - scan.geometry()->angles()[i]));
+    ranges[i] *= direction.head<2>().norm();
   }
-  level.geometry =
-      std::make_shared<scan::ScanGeometry>(std::move(angles), scan.geometry->timeOffsets(),
-                                           scan.geometry->rangeMin(), scan.geometry->rangeMax());
-  return level;
+  const auto geometry = std::make_shared<scan::ScanGeometry>(
+      std::move(angles), scan.geometry()->timeOffsets(), scan.geometry()->rangeMin(),
+      scan.geometry()->rangeMax());
+  return onGeometry(scan, geometry, std::move(ranges));
 }
 
 scan::Scan without(scan::Scan scan, const std::vector<bool>& beams) {
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    if (beams[i]) scan.kinds[i] = scan::ReturnKind::kInvalid;
+    if (beams[i]) scan.setKind(i, scan::ReturnKind::kInvalid);
   }
   return scan;
 }

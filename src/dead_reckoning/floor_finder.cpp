@@ -29,11 +29,11 @@ constexpr double kSupportPerContradiction = 0.65;
 using Slope = Eigen::Vector2d;
 
 Eigen::Vector2d bearingOf(const scan::Scan& scan, std::size_t beam) {
-  return {scan.geometry->cosines()[beam], scan.geometry->sines()[beam]};
+  return {scan.geometry()->cosines()[beam], scan.geometry()->sines()[beam]};
 }
 
 bool isOn(const Slope& slope, const scan::Scan& scan, std::size_t beam) {
-  return std::abs(slope.dot(bearingOf(scan, beam)) * scan.ranges[beam] - 1.0) < kFit;
+  return std::abs(slope.dot(bearingOf(scan, beam)) * scan.ranges()[beam] - 1.0) < kFit;
 }
 
 std::optional<Slope> slopeThrough(const scan::Scan& scan, std::size_t a, std::size_t b) {
@@ -41,15 +41,15 @@ std::optional<Slope> slopeThrough(const scan::Scan& scan, std::size_t a, std::si
   const Eigen::Vector2d v = bearingOf(scan, b);
   const double determinant = u.x() * v.y() - v.x() * u.y();
   if (std::abs(determinant) < 1e-3) return std::nullopt;
-  const double p = 1.0 / scan.ranges[a];
-  const double q = 1.0 / scan.ranges[b];
+  const double p = 1.0 / scan.ranges()[a];
+  const double q = 1.0 / scan.ranges()[b];
   return Slope((p * v.y() - q * u.y()) / determinant, (q * u.x() - p * v.x()) / determinant);
 }
 
 // How far a scan saw along a beam; nothing where the beam says nothing.
 double sightOf(const scan::Scan& scan, std::size_t beam) {
-  if (scan.isValid(beam)) return scan.ranges[beam];
-  const bool is_open = scan.kinds[beam] == scan::ReturnKind::kNothing;
+  if (scan.isValid(beam)) return scan.ranges()[beam];
+  const bool is_open = scan.kinds()[beam] == scan::ReturnKind::kNothing;
   return is_open ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
@@ -81,7 +81,7 @@ struct Sightings {
 // What an earlier scan says of a point, given in its sensor's frame: that it saw it, or that it
 // saw what lies behind.
 void consult(const scan::Scan& earlier, const Eigen::Vector2d& point, Sightings& sightings) {
-  const auto first = firstOfFour(*earlier.geometry, std::atan2(point.y(), point.x()));
+  const auto first = firstOfFour(*earlier.geometry(), std::atan2(point.y(), point.x()));
   if (!first) return;
   const double range = point.norm();
   bool was_seen = false;
@@ -111,7 +111,7 @@ FloorFinder::Beams FloorFinder::farBeams(const scan::Scan& scan) const {
   const double nearest = 0.9 * clearance / std::sin(config_.max_tilt);  // it bobs
   Beams far;
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    if (scan.isValid(i) && scan.ranges[i] > nearest) far.push_back(i);
+    if (scan.isValid(i) && scan.ranges()[i] > nearest) far.push_back(i);
   }
   return far;
 }

@@ -28,23 +28,23 @@ constexpr double kLeastSpread = 1e-6;  // [m²]
 
 Eigen::Vector2d basePoint(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor,
                           const Eigen::Vector3d& twist) {
-  const double offset = scan.geometry->timeOffsets()[beam];
+  const double offset = scan.geometry()->timeOffsets()[beam];
   const Eigen::Vector2d still = T_base_sensor * scan.point(beam);
-  if (!scan.sensor_motion.empty() || offset == 0.0 || twist.isZero()) return still;
+  if (!scan.sensorMotion().empty() || offset == 0.0 || twist.isZero()) return still;
   return Pose2::exp(offset * twist) * still;
 }
 
 void check(const scan::Scan& scan) {
-  const std::size_t beams = scan.geometry->beams();
-  if (scan.ranges.size() != beams || scan.kinds.size() != beams ||
-      scan.range_variances.size() != beams) {
+  const std::size_t beams = scan.geometry()->beams();
+  if (scan.ranges().size() != beams || scan.kinds().size() != beams ||
+      scan.rangeVariances().size() != beams) {
     throw scan::InvalidScan(fmt::format("{} ranges, {} kinds and {} variances for {} beams",
-                                        scan.ranges.size(), scan.kinds.size(),
-                                        scan.range_variances.size(), beams));
+                                        scan.ranges().size(), scan.kinds().size(),
+                                        scan.rangeVariances().size(), beams));
   }
-  if (!scan.sensor_motion.empty() && scan.sensor_motion.size() != beams) {
+  if (!scan.sensorMotion().empty() && scan.sensorMotion().size() != beams) {
     throw scan::InvalidScan(
-        fmt::format("the sensor's motion at {} of {} beams", scan.sensor_motion.size(), beams));
+        fmt::format("the sensor's motion at {} of {} beams", scan.sensorMotion().size(), beams));
   }
 }
 
@@ -168,14 +168,14 @@ Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor, const Eigen:
   check(scan);
   Sweep sweep;
   sweep.sensor = T_base_sensor.translation();
-  sweep.beam_angle = std::abs(scan.geometry->angleIncrement());
+  sweep.beam_angle = std::abs(scan.geometry()->angleIncrement());
   sweep.points.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    if (!scan.isValid(i) || !std::isfinite(scan.ranges[i])) continue;
+    if (!scan.isValid(i) || !std::isfinite(scan.ranges()[i])) continue;
     SurfacePoint point;
     point.position = basePoint(scan, i, T_base_sensor, twist);
     point.smoothed = point.position;
-    point.variance = scan.range_variances[i];
+    point.variance = scan.rangeVariances()[i];
     sweep.points.push_back(point);
   }
   SurfaceFinder(sweep).find();

@@ -275,7 +275,7 @@ const std::vector<std::uint8_t>& Conversation::stop(const Moment& now) {
   return outgoing_;
 }
 
-void Conversation::command(const triangulation::HeadCommand& command, const Moment& now) {
+void Conversation::command(const motion::HeadCommand& command, const Moment& now) {
   command_ = PendingCommand{{command}, now.steady, now.steady - kCommandPeriod, 0};
 }
 

@@ -37,7 +37,7 @@ DeviceSession::~DeviceSession() {
   thread_.join();
 }
 
-void DeviceSession::command(const triangulation::HeadCommand& command) {
+void DeviceSession::command(const motion::HeadCommand& command) {
   boost::asio::post(context_, [this, command] {
     conversation_.command(command, Moment::now());
     send();

@@ -68,8 +68,8 @@ void checkHead(const urdf::Joint& joint, const HeadFrames& frames, const std::st
   if (!joint.limits) refuse(source, joint.name, "has no limits");
 }
 
-triangulation::HeadLimits limitsOf(const urdf::Joint& joint, const std::string& source) {
-  triangulation::HeadLimits limits;
+motion::HeadLimits limitsOf(const urdf::Joint& joint, const std::string& source) {
+  motion::HeadLimits limits;
   limits.lower = joint.limits->lower;
   limits.upper = joint.limits->upper;
   limits.max_rate = joint.limits->velocity;

@@ -31,7 +31,7 @@ void HeadTarget::write(ByteWriter& writer) const {
 }
 
 bool HeadTarget::read(ByteReader& reader) {
-  using Mode = triangulation::HeadCommand::Mode;
+  using Mode = motion::HeadCommand::Mode;
   const std::uint8_t mode = reader.u8();
   command.mode = static_cast<Mode>(mode);
   command.position = fromMicro(reader.i32());

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sightline/geometry/angle.h"
-#include "sightline/lines/chi_square.h"
+#include "sightline/geometry/statistics.h"
 #include "sightline/lines/neighbour_beam.h"
 
 namespace sightline::lines {
@@ -96,7 +96,7 @@ geometry::Arc toArc(const ArcFit& fit, const scan::Scan& scan, const BeamArray& 
   arc.start_angle = directionOf(run.first);
   arc.end_angle = directionOf(run.end - 1);
   // Seen from outside, the point runs round the circle against the sense of the sweep.
-  if (fit.convex == (scan.geometry->angleIncrement() > 0.0)) {
+  if (fit.convex == (scan.geometry()->angleIncrement() > 0.0)) {
     std::swap(arc.start_angle, arc.end_angle);
   }
   if (arc.end_angle < arc.start_angle) arc.end_angle += 2.0 * geometry::kPi;
@@ -153,7 +153,7 @@ void ArcFinder::observe(const scan::Scan& scan, const BeamArray& beams, const Ru
     of.range_variance = static_cast<double>(beams.range_variance[i]);
     of.across_variance = static_cast<double>(beams.across_variance[i]);
     of.spacing =
-        scan.ranges[beams.beam[i] % scan.beams()] * std::abs(scan.geometry->angleIncrement());
+        scan.ranges()[beams.beam[i] % scan.beams()] * std::abs(scan.geometry()->angleIncrement());
     observations_.returns.push_back(of);
   }
   observeTangent(scan, beams.beam[run.first] % scan.beams(), Side::kStart);
@@ -163,16 +163,16 @@ void ArcFinder::observe(const scan::Scan& scan, const BeamArray& beams, const Ru
 void ArcFinder::observeTangent(const scan::Scan& scan, std::size_t beam, Side side) {
   const std::size_t next = nextTellingBeam(scan, beam, side == Side::kEnd ? 1 : -1);
   if (next == beam) return;
-  const bool passes = scan.kinds[next] == scan::ReturnKind::kNothing ||
-                      (scan.isValid(next) && scan.ranges[next] > scan.ranges[beam]);
+  const bool passes = scan.kinds()[next] == scan::ReturnKind::kNothing ||
+                      (scan.isValid(next) && scan.ranges()[next] > scan.ranges()[beam]);
   if (!passes) return;
   const Eigen::Vector2d on = scan.direction(beam);
   const Eigen::Vector2d past = scan.direction(next);
   fitting::ArcTangent tangent;
   tangent.direction = (on + past).normalized();
   tangent.origin =
-      scan.sensor_motion.empty() ? Eigen::Vector2d(0, 0) : scan.sensor_motion[beam].translation();
-  const double step = scan.ranges[beam] * (past - on).norm();
+      scan.sensorMotion().empty() ? Eigen::Vector2d(0, 0) : scan.sensorMotion()[beam].translation();
+  const double step = scan.ranges()[beam] * (past - on).norm();
   tangent.variance = step * step / 12.0;
   observations_.tangents.push_back(tangent);
 }
@@ -186,7 +186,8 @@ bool ArcFinder::isPlausible(const ArcFit& fit) const {
   }
   if (returns < config_.min_arc_beams) return false;
   const double freedom = static_cast<double>(fit.observations()) - kArcParameters;
-  return fit.chi_square <= chiSquareLimit(config_.gate, freedom) * config_.misfit * config_.misfit;
+  return fit.chi_square <=
+         geometry::chiSquareLimit(config_.gate, freedom) * config_.misfit * config_.misfit;
 }
 
 bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run& run,

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "sightline/geometry/statistics.h"
 #include "sightline/lines/beam_residuals.h"
-#include "sightline/lines/chi_square.h"
 
 namespace sightline::lines {
 
@@ -45,7 +45,8 @@ ArcRuns::Owner ArcRuns::judge(const std::vector<Piece>& pieces, std::size_t i) c
   const double length = extent(*beams_, piece);
   if (!isWall(piece, config_) || length < config_.min_length) return Owner::kNone;
   if (length > 2.0 * config_.max_radius) return Owner::kWall;
-  const bool explained = piece.chi_square <= chiSquareLimit(config_.gate, piece.beams - 2.0);
+  const bool explained =
+      piece.chi_square <= geometry::chiSquareLimit(config_.gate, piece.beams - 2.0);
   return explained && !isChord(pieces, i) ? Owner::kWall : Owner::kDoubtfulWall;
 }
 

@@ -7,9 +7,9 @@
 namespace sightline::lines {
 
 void BeamArray::assign(const scan::Scan& scan, std::size_t first_beam) {
-  const bool circle = scan.geometry->isFullCircle();
+  const bool circle = scan.geometry()->isFullCircle();
   reserve((circle ? 2 : 1) * scan.beams());
-  takeDirections(scan.geometry);
+  takeDirections(scan.geometry());
   size = 0;
   appendValid(scan, circle ? first_beam : 0, scan.beams(), 0);
   if (circle) appendValid(scan, 0, first_beam, scan.beams());
@@ -43,13 +43,13 @@ void BeamArray::appendValid(const scan::Scan& scan, std::size_t first, std::size
 SIGHTLINE_VECTOR_CLONES
 void BeamArray::appendRun(const scan::Scan& scan, std::size_t first, std::size_t end,
                           std::size_t shift) {
-  if (scan.sensor_motion.empty()) {
+  if (scan.sensorMotion().empty()) {
     place(scan, first, end);
   } else {
     placeMoved(scan, first, end);
   }
-  const double* ranges = scan.ranges.data() + first;
-  const double* variances = scan.range_variances.data() + first;
+  const double* ranges = scan.ranges().data() + first;
+  const double* variances = scan.rangeVariances().data() + first;
   float* along = range_variance.data() + size;
   float* across = across_variance.data() + size;
   std::uint32_t* index = beam.data() + size;
@@ -72,7 +72,7 @@ void BeamArray::appendRun(const scan::Scan& scan, std::size_t first, std::size_t
 SIGHTLINE_VECTOR_CLONES
 void BeamArray::place(const scan::Scan& scan, std::size_t first, std::size_t end) {
   const std::size_t count = end - first;
-  const double* ranges = scan.ranges.data() + first;
+  const double* ranges = scan.ranges().data() + first;
   const float* cosines = cosines_.data() + first;
   const float* sines = sines_.data() + first;
   float* px = x.data() + size;
@@ -96,7 +96,8 @@ void BeamArray::takeDirections(const std::shared_ptr<const scan::ScanGeometry>& 
 void BeamArray::placeMoved(const scan::Scan& scan, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
     const Eigen::Vector2d direction = scan.direction(i);
-    const Eigen::Vector2d point = scan.sensor_motion[i].translation() + scan.ranges[i] * direction;
+    const Eigen::Vector2d point =
+        scan.sensorMotion()[i].translation() + scan.ranges()[i] * direction;
     const std::size_t at = size + i - first;
     x[at] = static_cast<float>(point.x());
     y[at] = static_cast<float>(point.y());

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "sightline/geometry/statistics.h"
 #include "sightline/lines/beam_residuals.h"
-#include "sightline/lines/chi_square.h"
 
 namespace sightline::lines {
 
@@ -26,7 +26,7 @@ BreakPoints::BreakPoints(const BeamArray& beams, const LineExtractorConfig& conf
     : beams_(beams),
       gap_(config),
       gate_squared_(static_cast<float>(config.gate * config.gate)),
-      fragment_limit_(chiSquareLimit(config.gate, kLineFreedom)) {}
+      fragment_limit_(geometry::chiSquareLimit(config.gate, kLineFreedom)) {}
 
 bool BreakPoints::isOn(const LineEstimate& line, std::size_t i) const {
   return isWithin(beams_, i, line, gate_squared_);

@@ -101,21 +101,21 @@ EndPoint EndPoints::edge(const Piece& piece, std::size_t last, Side side) const 
   const std::size_t telling = nextTellingBeam(scan_, beam, side == Side::kEnd ? 1 : -1);
   if (telling == beam) return point;
   const Meeting past = meet(piece.line, telling);
-  if (!past.exists || past.range > scan_.geometry->rangeMax()) return point;
+  if (!past.exists || past.range > scan_.geometry()->rangeMax()) return point;
   const double step = past.position - on.position;
   point.position += 0.5 * step;
   point.variance += step * step / 12.0;
-  const bool behind = scan_.kinds[telling] == scan::ReturnKind::kNothing ||
-                      (scan_.isValid(telling) && scan_.ranges[telling] > past.range);
+  const bool behind = scan_.kinds()[telling] == scan::ReturnKind::kNothing ||
+                      (scan_.isValid(telling) && scan_.ranges()[telling] > past.range);
   point.kind = behind ? EndKind::kOccludingEdge : EndKind::kOccluded;
   return point;
 }
 
 EndPoints::Meeting EndPoints::meet(const LineEstimate& line, std::size_t beam) const {
   const Eigen::Vector2d direction = scan_.direction(beam);
-  const Eigen::Vector2d origin = scan_.sensor_motion.empty()
+  const Eigen::Vector2d origin = scan_.sensorMotion().empty()
                                      ? Eigen::Vector2d::Zero()
-                                     : scan_.sensor_motion[beam].translation();
+                                     : scan_.sensorMotion()[beam].translation();
   const Eigen::Vector2d normal(line.normal_x, line.normal_y);
   const Eigen::Vector2d along(line.alongX(), line.alongY());
   const double facing = normal.dot(direction);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sightline/lines/chi_square.h"
+#include "sightline/geometry/statistics.h"
 #include "sightline/lines/normal_equations.h"
 
 namespace sightline::lines {
@@ -128,7 +128,7 @@ bool LineFilter::fitStart(const Moments& moments, std::size_t first, std::size_t
   if (equations.beams < static_cast<double>(count) || !equations.information.isDetermined())
     return false;
   const double fallen = stepTo(equations, line);
-  const double limit = chiSquareLimit(config_.gate, static_cast<double>(count) - 2.0) *
+  const double limit = geometry::chiSquareLimit(config_.gate, static_cast<double>(count) - 2.0) *
                        config_.misfit * config_.misfit;
   if (!(equations.chi_square - fallen <= limit)) return false;
   piece_.line = line;

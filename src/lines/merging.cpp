@@ -2,18 +2,13 @@
 
 #include <cmath>
 
+#include "sightline/geometry/statistics.h"
 #include "sightline/lines/beam_residuals.h"
-#include "sightline/lines/chi_square.h"
 #include "sightline/lines/normal_equations.h"
 
 namespace sightline::lines {
 
 namespace {
-
-// χ² with two degrees of freedom, at the odds of a standard normal beyond ±sigmas.
-double twoDofLimit(double sigmas) {
-  return -2.0 * std::log(std::erfc(sigmas / std::sqrt(2.0)));
-}
 
 // Of two lines in (ρ, φ), and the information about either, seen from a place on the first.
 struct Difference {
@@ -64,7 +59,7 @@ Merging::Merging(const BeamArray& beams, const LineExtractorConfig& config)
       gap_(config),
       gate_(config.gate),
       misfit_(config.misfit),
-      distance_limit_(twoDofLimit(config.gate)) {}
+      distance_limit_(geometry::chiSquareLimitOf2(config.gate)) {}
 
 bool Merging::merge(Piece& before, const Piece& after) const {
   const LineEstimate& line = before.line;
@@ -79,7 +74,7 @@ bool Merging::merge(Piece& before, const Piece& after) const {
   joined.beams = 0.0;  // to be refined in full
   stepTo(fusion(line, after.line, between), joined.line);
   if (!refine(beams_, gate_ * gate_, joined)) return false;
-  if (joined.chi_square > chiSquareLimit(gate_, joined.beams - 2.0) * misfit_ * misfit_)
+  if (joined.chi_square > geometry::chiSquareLimit(gate_, joined.beams - 2.0) * misfit_ * misfit_)
     return false;
   before = joined;
   return true;

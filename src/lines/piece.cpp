@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sightline/lines/chi_square.h"
+#include "sightline/geometry/statistics.h"
 #include "sightline/lines/normal_equations.h"
 
 namespace sightline::lines {
@@ -73,7 +73,7 @@ bool refine(const BeamArray& beams, double gate_squared, Piece& piece) {
 
 bool isWall(const Piece& piece, const LineExtractorConfig& config) {
   if (piece.beams < config.min_beams) return false;
-  const double limit = chiSquareLimit(config.gate, piece.beams - 2.0);
+  const double limit = geometry::chiSquareLimit(config.gate, piece.beams - 2.0);
   return piece.chi_square <= limit * config.misfit * config.misfit;
 }
 

@@ -15,7 +15,7 @@ using geometry::Pose2;
 
 // Of the sensor at a beam, in its frame at the stamp.
 Pose2 poseAt(const scan::Scan& scan, std::size_t beam) {
-  return scan.sensor_motion.empty() ? Pose2() : scan.sensor_motion[beam];
+  return scan.sensorMotion().empty() ? Pose2() : scan.sensorMotion()[beam];
 }
 
 double predictedRange(const PolarLine& line, double angle) {  // eq. 27
@@ -58,8 +58,8 @@ bool PlainExtractor::start(const scan::Scan& scan, const std::vector<std::size_t
     const double angle = std::atan2(point.y(), point.x());
     const Eigen::RowVector2d h = observationJacobian(*line, angle);
     const double innovation = point.norm() - predictedRange(*line, angle);
-    information += h.transpose() * h / scan.range_variances[beams[i]];
-    chi_square += innovation * innovation / scan.range_variances[beams[i]];
+    information += h.transpose() * h / scan.rangeVariances()[beams[i]];
+    chi_square += innovation * innovation / scan.rangeVariances()[beams[i]];
   }
   track = {*line, beams.front(), beams.back(), beams.size(), chi_square};
   track.line.covariance = information.inverse();
@@ -70,11 +70,11 @@ bool PlainExtractor::start(const scan::Scan& scan, const std::vector<std::size_t
 bool PlainExtractor::update(const scan::Scan& scan, std::size_t beam, Track& track) const {
   const Pose2 T_now_before = poseAt(scan, beam).inverse() * poseAt(scan, track.last);
   PolarLine line =
-      scan.sensor_motion.empty() ? track.line : geometry::transform(T_now_before, track.line);
-  const double angle = scan.geometry->angles()[beam];
+      scan.sensorMotion().empty() ? track.line : geometry::transform(T_now_before, track.line);
+  const double angle = scan.geometry()->angles()[beam];
   const Eigen::RowVector2d h = observationJacobian(line, angle);
-  const double innovation = scan.ranges[beam] - predictedRange(line, angle);
-  const double s = h * line.covariance * h.transpose() + scan.range_variances[beam];
+  const double innovation = scan.ranges()[beam] - predictedRange(line, angle);
+  const double s = h * line.covariance * h.transpose() + scan.rangeVariances()[beam];
   if (!(innovation * innovation <= config_.gate * config_.gate * s)) return false;
   const Eigen::Vector2d gain = line.covariance * h.transpose() / s;
   line.rho += gain[0] * innovation;

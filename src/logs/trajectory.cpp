@@ -41,7 +41,7 @@ double yawOf(const double* q) {
                     q[3] * q[3] + q[0] * q[0] - q[1] * q[1] - q[2] * q[2]);
 }
 
-TimedPose timedPose(const Row& row, const LineReader& lines) {
+geometry::StampedPose2 timedPose(const Row& row, const LineReader& lines) {
   const auto& n = row.numbers;
   if (n.size() == 7) return {row.stamps[0], Pose2(n[0], n[1], yawOf(&n[3]))};
   if (n.size() == 3) return {row.stamps[0], Pose2(n[0], n[1], n[2])};
@@ -60,7 +60,9 @@ Trajectory readTrajectory(const std::string& path) {
   }
   if (trajectory.empty()) throw config::Error(path, 0, "", "holds no poses");
   std::stable_sort(trajectory.begin(), trajectory.end(),
-                   [](const TimedPose& a, const TimedPose& b) { return a.stamp < b.stamp; });
+                   [](const geometry::StampedPose2& a, const geometry::StampedPose2& b) {
+                     return a.stamp < b.stamp;
+                   });
   return trajectory;
 }
 

@@ -44,33 +44,20 @@ struct Errors {
   }
 };
 
-Trajectory::const_iterator firstFrom(const Trajectory& trajectory, std::int64_t stamp) {
-  return std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
-                          [](const TimedPose& p, std::int64_t time) { return p.stamp < time; });
-}
-
 // The pose nearest in time, the earlier of two that are as near; null where none is within the
 // tolerance.
-const TimedPose* nearest(const Trajectory& trajectory, std::int64_t stamp) {
-  const auto after = firstFrom(trajectory, stamp);
-  const TimedPose* found = after == trajectory.end() ? nullptr : &*after;
+const geometry::StampedPose2* nearest(const Trajectory& trajectory, std::int64_t stamp) {
+  const auto after = geometry::firstFrom(trajectory.begin(), trajectory.end(), stamp);
+  const geometry::StampedPose2* found = after == trajectory.end() ? nullptr : &*after;
   if (after != trajectory.begin()) {
-    const TimedPose& before = *std::prev(after);
+    const geometry::StampedPose2& before = *std::prev(after);
     if (!found || stamp - before.stamp <= found->stamp - stamp) found = &before;
   }
   return found && std::abs(found->stamp - stamp) <= kTolerance ? found : nullptr;
 }
 
 std::optional<Pose2> truthAt(const Trajectory& truth, std::int64_t stamp) {
-  const auto after = firstFrom(truth, stamp);
-  if (after == truth.end()) return std::nullopt;
-  if (after->stamp == stamp) return after->pose;
-  if (after == truth.begin()) return std::nullopt;
-  const TimedPose& before = *std::prev(after);
-  const std::int64_t gap = after->stamp - before.stamp;
-  if (gap > kWidestTruthGap) return std::nullopt;
-  const double ratio = static_cast<double>(stamp - before.stamp) / static_cast<double>(gap);
-  return geometry::interpolate(before.pose, after->pose, ratio);
+  return geometry::poseAt(truth.begin(), truth.end(), stamp, kWidestTruthGap);
 }
 
 std::string figures(const Statistics& statistics, const std::string& name, const char* unit) {
@@ -104,8 +91,8 @@ RelationErrors compareWithRelations(const Trajectory& trajectory,
   Errors all;
   Errors short_term;
   for (const Relation& relation : relations) {
-    const TimedPose* first = nearest(trajectory, relation.first);
-    const TimedPose* second = nearest(trajectory, relation.second);
+    const geometry::StampedPose2* first = nearest(trajectory, relation.first);
+    const geometry::StampedPose2* second = nearest(trajectory, relation.second);
     if (!first || !second || first == second) continue;
     const Pose2 motion = between(first->pose * T_body_measured, second->pose * T_body_measured);
     all.add(relation.motion, motion);
@@ -124,7 +111,7 @@ RelationErrors compareWithRelations(const Trajectory& trajectory,
 TruthErrors compareWithTruth(const Trajectory& trajectory, const Trajectory& truth,
                              const Pose2& T_body_measured) {
   Errors errors;
-  for (const TimedPose& timed : trajectory) {
+  for (const geometry::StampedPose2& timed : trajectory) {
     const auto true_pose = truthAt(truth, timed.stamp);
     if (true_pose) errors.add(*true_pose, timed.pose * T_body_measured);
   }

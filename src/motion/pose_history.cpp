@@ -1,6 +1,6 @@
 #include "sightline/motion/pose_history.h"
 
-#include <algorithm>
+#include <limits>
 
 namespace sightline::motion {
 
@@ -13,15 +13,8 @@ void PoseHistory::add(std::int64_t stamp, const geometry::Pose2& pose) {
 }
 
 std::optional<geometry::Pose2> PoseHistory::at(std::int64_t stamp) const {
-  if (poses_.empty() || stamp < oldest() || stamp > newest()) return std::nullopt;
-  const auto after =
-      std::lower_bound(poses_.begin(), poses_.end(), stamp,
-                       [](const StampedPose2& p, std::int64_t time) { return p.stamp < time; });
-  if (after->stamp == stamp) return after->pose;
-  const StampedPose2& before = *std::prev(after);
-  const double ratio =
-      static_cast<double>(stamp - before.stamp) / static_cast<double>(after->stamp - before.stamp);
-  return geometry::interpolate(before.pose, after->pose, ratio);
+  return geometry::poseAt(poses_.begin(), poses_.end(), stamp,
+                          std::numeric_limits<std::int64_t>::max());
 }
 
 }  // namespace sightline::motion

@@ -105,7 +105,7 @@ void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
 
 void LineExtractorNode::onRangeScan(const RangeScanConstPtr& message) {
   try {
-    triangulation::RangeScan range_scan = range_reader_.read(*message);
+    motion::RangeScan range_scan = range_reader_.read(*message);
     correct(range_scan);
     extract(range_scan.scan);
     monitor_.accept();

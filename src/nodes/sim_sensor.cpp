@@ -60,7 +60,7 @@ class SimSensorNode {
   void publishRangeScans();
   void publishHead(std::size_t sensor);
   void publishState();
-  bridge::UncertainTwist2 odometryTwist() const;
+  geometry::UncertainTwist2 odometryTwist() const;
   void publishOdometry();
   void publishGroundTruth();
   void publishImu();
@@ -78,7 +78,7 @@ class SimSensorNode {
   std::vector<ActiveSensor> active_sensors_;
   std::set<std::string> claimed_;  // names that only one may have
   std::int64_t odometry_messages_ = 0;
-  motion::StampedPose2 last_odometry_;  // stamp in time of the run
+  geometry::StampedPose2 last_odometry_;  // stamp in time of the run
 
   ros::Publisher odometry_publisher_;
   ros::Publisher truth_publisher_;
@@ -188,7 +188,7 @@ void SimSensorNode::addActiveSensor(const SimActiveSensorConfig& config) {
   simulation_.addActiveSensor(profile, config.mounting);
   auto topics = std::make_unique<bridge::ActiveSensorTopics>(
       node_, config.names, profile.head, updater_,
-      [this, index](const triangulation::HeadCommand& command) {
+      [this, index](const motion::HeadCommand& command) {
         simulation_.commandHead(index, command);
       });
   active_sensors_.push_back({config, std::move(topics)});
@@ -272,7 +272,7 @@ void SimSensorNode::publishRangeScans() {
 }
 
 void SimSensorNode::publishHead(std::size_t sensor) {
-  const simulation::SensorHead& head = simulation_.head(sensor);
+  const motion::SensorHead& head = simulation_.head(sensor);
   const bridge::ActiveSensorTopics& topics = *active_sensors_[sensor].topics;
   const std::int64_t stamp = clock_.stampOf(simulation_.time());
   topics.publishJoint(stamp, head.angle(), head.rate());
@@ -293,7 +293,7 @@ void SimSensorNode::publishState() {
 }
 
 // What the wheels turned since the last message.
-bridge::UncertainTwist2 SimSensorNode::odometryTwist() const {
+geometry::UncertainTwist2 SimSensorNode::odometryTwist() const {
   if (odometry_messages_ == 0) return {};
   const double time = 1e-9 * static_cast<double>(simulation_.time() - last_odometry_.stamp);
   const geometry::Pose2 step =

@@ -90,7 +90,7 @@ SyncScanDriverNode::SyncScanDriverNode(ros::NodeHandle node, ros::NodeHandle pri
       [this](const triangulation::RawScan& raw) { queue_.push(raw); });
   topics_ = std::make_unique<bridge::ActiveSensorTopics>(
       node, config_.names, joint.limits, updater_,
-      [this](const triangulation::HeadCommand& command) { session_->command(command); });
+      [this](const motion::HeadCommand& command) { session_->command(command); });
   diagnostics_ = std::make_unique<bridge::DeviceDiagnostics>(
       config_.session, *session_, queue_, 1.0 / sensor.scan.scanPeriod(), updater_);
   diagnostics_timer_ = node.createWallTimer(
@@ -127,7 +127,7 @@ void SyncScanDriverNode::publishJoint(const triangulation::RawScan& raw) {
 }
 
 void SyncScanDriverNode::publish(const triangulation::RawScan& raw) {
-  triangulation::RangeScan range_scan = ranger_.range(raw);
+  motion::RangeScan range_scan = ranger_.range(raw);
   topics_->publish(range_scan);
   diagnostics_->tick();
 }

@@ -1,7 +1,8 @@
 #include "sightline/pipeline/imu_history.h"
 
-#include <algorithm>
 #include <iterator>
+
+#include "sightline/geometry/stamped_pose2.h"
 
 namespace sightline::pipeline {
 
@@ -31,7 +32,7 @@ void ImuHistory::add(const ImuReading& reading) {
     heading = last.heading + 0.5e-9 * static_cast<double>(reading.stamp - last.reading.stamp) *
                                  (last.reading.turn_rate + reading.turn_rate);
   }
-  samples_.push_back({reading, heading});
+  samples_.push_back({reading.stamp, reading, heading});
   while (reading.stamp - samples_.front().reading.stamp > kLength) samples_.pop_front();
 }
 
@@ -41,16 +42,14 @@ std::optional<std::int64_t> ImuHistory::newest() const {
 }
 
 std::optional<ImuHistory::Sample> ImuHistory::at(std::int64_t stamp) const {
-  const auto after = std::lower_bound(
-      samples_.begin(), samples_.end(), stamp,
-      [](const Sample& sample, std::int64_t time) { return sample.reading.stamp < time; });
+  const auto after = geometry::firstFrom(samples_.begin(), samples_.end(), stamp);
   if (after == samples_.end()) return std::nullopt;
-  if (after->reading.stamp == stamp) return *after;
+  if (after->stamp == stamp) return *after;
   if (after == samples_.begin()) return std::nullopt;
   const Sample& before = *std::prev(after);
-  const double ratio = static_cast<double>(stamp - before.reading.stamp) /
-                       static_cast<double>(after->reading.stamp - before.reading.stamp);
+  const double ratio = geometry::ratioBetween(before.stamp, after->stamp, stamp);
   Sample sample;
+  sample.stamp = stamp;
   sample.heading = before.heading + ratio * (after->heading - before.heading);
   sample.reading.attitude = between(before.reading.attitude, after->reading.attitude, ratio);
   return sample;

@@ -9,11 +9,11 @@ namespace sightline::pipeline {
 std::optional<geometry::Pose2> addMotion(scan::Scan& scan, const OdometryAt& odometry,
                                          const geometry::Pose2& T_base_sensor) {
   const auto start = odometry(scan.stamp);
-  const double duration = scan.geometry->timeOffsets().back();
+  const double duration = scan.geometry()->timeOffsets().back();
   const auto end = odometry(scan.stamp + std::llround(duration * 1e9));
   if (!start || !end) return std::nullopt;
-  scan.sensor_motion =
-      motion::sweepMotion(*scan.geometry, geometry::between(*start, *end), T_base_sensor);
+  scan.setSensorMotion(
+      motion::sweepMotion(*scan.geometry(), geometry::between(*start, *end), T_base_sensor));
   return start;
 }
 

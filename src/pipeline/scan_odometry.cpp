@@ -59,7 +59,7 @@ double meanRange(const scan::Scan& scan) {
   std::size_t valid = 0;
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i)) continue;
-    sum += scan.ranges[i];
+    sum += scan.ranges()[i];
     ++valid;
   }
   return valid > 0 ? sum / static_cast<double>(valid) : 0.0;

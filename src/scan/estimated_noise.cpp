@@ -4,6 +4,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "sightline/geometry/statistics.h"
+
 namespace sightline::scan {
 
 namespace {
@@ -15,10 +17,9 @@ constexpr auto kReturns = static_cast<double>(kRun);
 constexpr std::size_t kFewestRuns = 3;
 constexpr std::size_t kRunsOfGroup = 8;
 constexpr std::size_t kMostGroups = 8;
-// Median of χ² over its degrees of freedom, of which a run has two less than returns (Wilson and
-// Hilferty 1931).
-constexpr double kRoot = 1.0 - 2.0 / (9.0 * (kReturns - 2.0));
-constexpr double kMedian = kRoot * kRoot * kRoot;
+// A line through a run takes two degrees of freedom.
+constexpr double kMedian = geometry::chiSquareMedianRatio(kReturns - 2.0);
+
 // Along the beams, of a run about the line that fits it best: 1/r = n·d/ρ is linear in the
 // direction d, with the noise of r over r².
 NoiseAtRange noiseOfRun(const Scan& scan, std::size_t first) {
@@ -26,15 +27,15 @@ NoiseAtRange noiseOfRun(const Scan& scan, std::size_t first) {
   Eigen::Vector2d products(0, 0);
   double sum = 0.0;
   for (std::size_t i = first; i < first + kRun; ++i) {
-    const double range = scan.ranges[i];
+    const double range = scan.ranges()[i];
     const Eigen::Vector2d row =
-        range * range * Eigen::Vector2d(scan.geometry->cosines()[i], scan.geometry->sines()[i]);
+        range * range * Eigen::Vector2d(scan.geometry()->cosines()[i], scan.geometry()->sines()[i]);
     squares += row * row.transpose();
     products += row * range;
     sum += range * range;
   }
   const double left = sum - products.dot(squares.ldlt().solve(products));
-  return {scan.ranges[first + kRun / 2], std::max(0.0, left) / (kReturns - 2.0)};
+  return {scan.ranges()[first + kRun / 2], std::max(0.0, left) / (kReturns - 2.0)};
 }
 
 std::vector<NoiseAtRange> noiseOfRuns(const Scan& scan) {
@@ -108,11 +109,12 @@ std::vector<NoiseAtRange> estimateNoise(const Scan& scan) {
 void raiseToEstimate(Scan& scan) {
   const std::vector<NoiseAtRange> noise = estimateNoise(scan);
   if (noise.empty()) return;
+  std::vector<double> variances = scan.rangeVariances();
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i)) continue;
-    double& variance = scan.range_variances[i];
-    variance = std::max(variance, varianceAt(noise, scan.ranges[i]));
+    variances[i] = std::max(variances[i], varianceAt(noise, scan.ranges()[i]));
   }
+  scan.setRangeVariances(std::move(variances));
 }
 
 }  // namespace sightline::scan

@@ -77,11 +77,12 @@ Eigen::Matrix2d uniformCovariance(double range, double angle, double range_half_
 }
 
 void applyNoise(const NoiseModel& model, Scan& scan) {
-  scan.range_variances.resize(scan.beams());
+  std::vector<double> variances(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    const double intensity = scan.intensities.empty() ? 0.0 : scan.intensities[i];
-    scan.range_variances[i] = model.rangeVariance(scan.ranges[i], intensity);
+    const double intensity = scan.intensities().empty() ? 0.0 : scan.intensities()[i];
+    variances[i] = model.rangeVariance(scan.ranges()[i], intensity);
   }
+  scan.setRangeVariances(std::move(variances));
   if (model.kind == NoiseKind::kEstimated) raiseToEstimate(scan);
   scan.angular_variance = model.angularVariance();
   scan.transverse_variance = model.kind == NoiseKind::kIsotropic ? model.sigma * model.sigma : 0.0;

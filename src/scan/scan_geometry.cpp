@@ -80,6 +80,12 @@ std::shared_ptr<const ScanGeometry> ScanGeometry::uniform(double angle_min, doub
                                         range_max);
 }
 
+std::shared_ptr<const ScanGeometry> ScanGeometry::mirrored() const {
+  std::vector<double> angles(angles_);
+  for (double& angle : angles) angle = -angle;
+  return std::make_shared<ScanGeometry>(std::move(angles), time_offsets_, range_min_, range_max_);
+}
+
 bool ScanGeometry::isFullCircle() const {
   const double gap = 2.0 * geometry::kPi - std::abs(angles_.back() - angles_.front());
   return beams() > 2 && gap < 1.5 * std::abs(angle_increment_);

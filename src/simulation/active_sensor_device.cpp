@@ -17,7 +17,7 @@ std::vector<triangulation::RawScan> ActiveSensorDevice::advance(std::int64_t tim
   return sensor_.advance(world_, time, [this](std::int64_t) { return T_map_mount_; });
 }
 
-bool ActiveSensorDevice::command(const triangulation::HeadCommand& command) {
+bool ActiveSensorDevice::command(const motion::HeadCommand& command) {
   if (!sensor_.head().limits().fault(command).empty()) return false;
   sensor_.command(command);
   return true;

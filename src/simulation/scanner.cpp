@@ -56,21 +56,22 @@ scan::Scan Scanner::sweep(const world::World& world, std::int64_t stamp, const P
 
 scan::Scan Scanner::sweepInSpace(const world::World& world, std::int64_t stamp,
                                  const PoseInSpaceAt& T_map_base) {
-  scan::Scan scan;
-  scan.geometry = geometry_;
-  scan.stamp = stamp;
-  scan.ranges.reserve(geometry_->beams());
-  scan.kinds.reserve(geometry_->beams());
+  std::vector<double> ranges;
+  std::vector<double> intensities;
+  ranges.reserve(geometry_->beams());
   for (std::size_t beam = 0; beam < geometry_->beams(); ++beam) {
     const std::int64_t time = stamp + std::llround(geometry_->timeOffsets()[beam] * 1e9);
-    measureBeam(world, T_map_base(time), beam, scan);
+    const Echo echo = measureBeam(world, T_map_base(time), beam);
+    ranges.push_back(echo.range);
+    if (profile_.intensity > 0.0) intensities.push_back(echo.intensity);
   }
+  scan::Scan scan(geometry_, stamp, std::move(ranges), std::move(intensities));
   scan::applyNoise(profile_.noise, scan);
   return scan;
 }
 
-void Scanner::measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_base,
-                          std::size_t beam, scan::Scan& scan) {
+Scanner::Echo Scanner::measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_base,
+                                   std::size_t beam) {
   const Eigen::Isometry3d T_map_sensor = T_map_base * T_base_sensor_;
   const auto hit = lookNoisily(world, T_map_sensor, geometry_->angles()[beam]);
   const double intensity = hit ? intensityOf(*hit, world.materials()[hit->material]) : 0.0;
@@ -79,11 +80,8 @@ void Scanner::measureBeam(const world::World& world, const Eigen::Isometry3d& T_
   if (profile_.dropout > 0.0 && 0.5 + uniform(0.5) < profile_.dropout) {
     range = std::numeric_limits<double>::quiet_NaN();
   }
-  scan.ranges.push_back(range);
-  scan.kinds.push_back(scan::classify(range, *geometry_));
-  if (profile_.intensity > 0.0) {
-    scan.intensities.push_back(scan.kinds.back() == scan::ReturnKind::kValid ? intensity : 0.0);
-  }
+  const bool is_valid = scan::classify(range, *geometry_) == scan::ReturnKind::kValid;
+  return {range, is_valid ? intensity : 0.0};
 }
 
 std::optional<world::Hit> Scanner::look(const world::World& world,

@@ -42,7 +42,7 @@ void Simulation::command(const Velocity& velocity) {
   commanded_at_ = time_;
 }
 
-void Simulation::commandHead(std::size_t sensor, const triangulation::HeadCommand& command) {
+void Simulation::commandHead(std::size_t sensor, const motion::HeadCommand& command) {
   active_sensors_[sensor].sensor.command(command);
 }
 

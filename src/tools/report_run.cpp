@@ -11,7 +11,7 @@ using namespace sightline;
 
 void write(const logs::Trajectory& trajectory, const std::filesystem::path& path) {
   logs::TrajectoryWriter writer(path.string());
-  for (const logs::TimedPose& pose : trajectory) writer.add(pose.stamp, pose.pose);
+  for (const geometry::StampedPose2& pose : trajectory) writer.add(pose.stamp, pose.pose);
   writer.close();
 }
 

@@ -65,13 +65,13 @@ RoomFit fitToRoom(const scan::Scan& scan, const geometry::Pose2& T_map_sensor,
   const Eigen::Matrix2d rotation = T_map_sensor.rotation();
   RoomFit fit;
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    const bool nothing = scan.kinds[i] == scan::ReturnKind::kNothing;
+    const bool nothing = scan.kinds()[i] == scan::ReturnKind::kNothing;
     if (!scan.isValid(i) && !nothing) continue;
     const Meeting meeting = firstWall(walls, rotation * scan.direction(i));
     if (!meeting.wall || !isOnSpan(*meeting.wall->wall, meeting.along, tolerance)) continue;
-    if (nothing && meeting.range > scan.geometry->rangeMax()) continue;
+    if (nothing && meeting.range > scan.geometry()->rangeMax()) continue;
     const double excess =
-        nothing ? tolerance + 1.0 : (scan.ranges[i] - meeting.range) * meeting.cos_incidence;
+        nothing ? tolerance + 1.0 : (scan.ranges()[i] - meeting.range) * meeting.cos_incidence;
     if (excess > tolerance) {
       ++fit.beyond;
     } else if (excess < -tolerance) {

@@ -35,28 +35,29 @@ std::optional<double> neighbouringPosition(const std::vector<double>& positions,
   return median;
 }
 
-}  // namespace
+// The readings of a scan, beam by beam.
+struct Readings {
+  std::vector<double> ranges;
+  std::vector<double> currents;
+  std::vector<double> variances;
+  std::vector<scan::ReturnKind> kinds;
 
-std::vector<geometry::Pose2> headMotion(const std::vector<double>& head_angles,
-                                        const Eigen::Vector2d& origin,
-                                        const std::vector<geometry::Pose2>& mount_motion) {
-  const auto turned = [&](double angle) { return angle != head_angles.front(); };
-  if (mount_motion.empty() && std::none_of(head_angles.begin(), head_angles.end(), turned)) {
-    return {};
+  void add(const RangeReading& reading, double current) {
+    ranges.push_back(reading.range);
+    currents.push_back(current);
+    variances.push_back(reading.variance);
+    kinds.push_back(reading.kind);
   }
-  const geometry::Pose2 T_head_projection(origin, 0.0);
-  const auto T_mount_projection = [&](std::size_t beam) {
-    return geometry::Pose2(0.0, 0.0, head_angles[beam]) * T_head_projection;
-  };
-  const geometry::Pose2 T_first_mount = T_mount_projection(0).inverse();
-  std::vector<geometry::Pose2> motion;
-  motion.reserve(head_angles.size());
-  for (std::size_t beam = 0; beam < head_angles.size(); ++beam) {
-    const geometry::Pose2 moved = mount_motion.empty() ? geometry::Pose2() : mount_motion[beam];
-    motion.push_back(T_first_mount * moved * T_mount_projection(beam));
+  scan::Scan toScan(const std::shared_ptr<const scan::ScanGeometry>& geometry, std::int64_t stamp) {
+    scan::Scan scan(geometry, stamp, std::move(ranges), std::move(currents));
+    // The calibration table tells too near and too far as well.
+    for (std::size_t i = 0; i < scan.beams(); ++i) scan.setKind(i, kinds[i]);
+    scan.setRangeVariances(std::move(variances));
+    return scan;
   }
-  return motion;
-}
+};
+
+}  // namespace
 
 Ranger::Ranger(Calibration calibration)
     : calibration_(std::move(calibration)),
@@ -113,29 +114,24 @@ void Ranger::check(const RawScan& raw) const {
   }
 }
 
-RangeScan Ranger::range(const RawScan& raw) const {
+motion::RangeScan Ranger::range(const RawScan& raw) const {
   check(raw);
-  RangeScan result;
-  result.head_angles = raw.head_angles;
-  result.origin = calibration_.parameters.origin.position();
-  scan::Scan& scan = result.scan;
-  scan.geometry = geometry_;
-  scan.stamp = raw.stamp;
-  scan.sensor_motion = headMotion(raw.head_angles, result.origin);
+  motion::RangeScan result;
+  result.head.angles = raw.head_angles;
+  result.head.origin = calibration_.parameters.origin.position();
   std::vector<double> positions;
   positions.reserve(raw.currents.size());
   for (const Photocurrents& currents : raw.currents) positions.push_back(litPosition(currents));
+  Readings readings;
   for (std::size_t beam = 0; beam < geometry_->beams(); ++beam) {
     const double current = raw.currents[beam].total();
     const double p = positions[beam];
     const double around =
         neighbouringPosition(positions, beam, kSameSurface * sigma(current)).value_or(p);
-    const RangeReading reading = readAt(beam, current, p, around);
-    scan.ranges.push_back(reading.range);
-    scan.kinds.push_back(reading.kind);
-    scan.range_variances.push_back(reading.variance);
-    scan.intensities.push_back(current);
+    readings.add(readAt(beam, current, p, around), current);
   }
+  result.scan = readings.toScan(geometry_, raw.stamp);
+  result.scan.setSensorMotion(motion::headMotion(result.head));
   return result;
 }
 

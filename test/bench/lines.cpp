@@ -40,11 +40,11 @@ double microseconds(Action action) {
 /// The yardstick of the times: the same scan turned into x and y with the library's functions.
 double convert(const scan::Scan& scan) {
   static std::vector<double> x(4096), y(4096);
-  const auto& angles = scan.geometry->angles();
+  const auto& angles = scan.geometry()->angles();
   const double time = microseconds([&] {
     for (std::size_t i = 0; i < scan.beams(); ++i) {
-      x[i] = scan.ranges[i] * std::cos(angles[i]);
-      y[i] = scan.ranges[i] * std::sin(angles[i]);
+      x[i] = scan.ranges()[i] * std::cos(angles[i]);
+      y[i] = scan.ranges()[i] * std::sin(angles[i]);
     }
   });
   // Or the optimiser would leave the work out.

@@ -17,6 +17,7 @@
 
 #include "rooms/freiburg.h"
 #include "sightline/geometry/angle.h"
+#include "sightline/geometry/statistics.h"
 #include "sightline/motion/pose_history.h"
 #include "sightline/pipeline/scan_motion.h"
 #include "sightline/scan/noise_model.h"
@@ -109,9 +110,8 @@ void addClutter(double share, std::mt19937_64& random, scan::Scan& scan) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (unit(random) >= share) continue;
-    const double reach = scan.isValid(i) ? scan.ranges[i] : scan.geometry->rangeMax();
-    scan.ranges[i] = 0.3 + (reach - 0.3) * unit(random);
-    scan.kinds[i] = scan::classify(scan.ranges[i], *scan.geometry);
+    const double reach = scan.isValid(i) ? scan.ranges()[i] : scan.geometry()->rangeMax();
+    scan.setRange(i, 0.3 + (reach - 0.3) * unit(random));
   }
 }
 
@@ -202,7 +202,7 @@ void print(const std::string& name, const std::vector<Sample>& samples) {
     square += sample.position_error * sample.position_error;
     heading += sample.heading_error * sample.heading_error;
     nees_sum += sample.nees;
-    inside += sample.nees <= 7.815 ? 1.0 : 0.0;  // 95 % of chi-square with 3 degrees of freedom
+    inside += sample.nees <= geometry::kChiSquare95Of3 ? 1.0 : 0.0;
   }
   const auto count = static_cast<double>(samples.size());
   fmt::print("{}.rmse {:.4f} m\n", name, std::sqrt(square / count));

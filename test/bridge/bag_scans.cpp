@@ -86,8 +86,8 @@ TEST_F(BagScansTest, WaitForTheOdometryToCoverTheSweep) {
   EXPECT_DOUBLE_EQ(released_[0], 10.25);
   EXPECT_NEAR(found[0].T_odom_base->x(), 0.1, 1e-9);
   EXPECT_NEAR(found[0].T_base_sensor->x(), 0.2, 1e-12);
-  ASSERT_EQ(found[0].scan.sensor_motion.size(), 11U);
-  EXPECT_NEAR(found[0].scan.sensor_motion.back().x(), 0.1, 1e-6);
+  ASSERT_EQ(found[0].scan.sensorMotion().size(), 11U);
+  EXPECT_NEAR(found[0].scan.sensorMotion().back().x(), 0.1, 1e-6);
   EXPECT_EQ(messages_, 5U);
   EXPECT_DOUBLE_EQ(progress_, 1.0);
 }
@@ -124,7 +124,7 @@ TEST_F(BagScansTest, LeaveTheWheelsAlone) {
   const auto found = read(/*use_wheels=*/false);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_FALSE(found[0].T_odom_base.has_value());
-  EXPECT_TRUE(found[0].scan.sensor_motion.empty());
+  EXPECT_TRUE(found[0].scan.sensorMotion().empty());
 }
 
 TEST_F(BagScansTest, CountMalformedScansByReason) {
@@ -163,7 +163,7 @@ TEST_F(BagScansTest, ReadAnUpsideDownScannerAsAnUprightOne) {
   transformAt(10.2, "odom", "base_link", {});
   const auto found = read();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_NEAR(found[0].scan.geometry->angles().back(), -1.0, 1e-6);
+  EXPECT_NEAR(found[0].scan.geometry()->angles().back(), -1.0, 1e-6);
 }
 
 TEST_F(BagScansTest, NameTheTopicsThatThereAre) {

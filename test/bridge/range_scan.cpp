@@ -11,19 +11,16 @@
 namespace sightline::bridge {
 namespace {
 
-triangulation::RangeScan rangeScan() {
-  triangulation::RangeScan range_scan;
+motion::RangeScan rangeScan() {
+  motion::RangeScan range_scan;
   scan::Scan& scan = range_scan.scan;
-  scan.geometry = scan::ScanGeometry::uniform(-0.1, 0.1, 3, 4e-4, 0.4, 2.5);
-  scan.stamp = 12'000'000'345;
+  scan = scan::Scan(scan::ScanGeometry::uniform(-0.1, 0.1, 3, 4e-4, 0.4, 2.5), 12'000'000'345,
+                    {1.0, 5.0, 2.0}, {26e-9, 1e-9, 6e-9});
   scan.frame = "projection";
-  scan.ranges = {1.0, 5.0, 2.0};
-  scan.kinds = {scan::ReturnKind::kValid, scan::ReturnKind::kNothing, scan::ReturnKind::kValid};
-  scan.range_variances = {1e-6, 0.0, 4e-4};
-  scan.intensities = {26e-9, 1e-9, 6e-9};
-  range_scan.head_angles = {0.2, 0.21, 0.22};
-  range_scan.mount_frame = "active_sensor";
-  range_scan.origin = {0.05, -0.03};
+  scan.setRangeVariances({1e-6, 0.0, 4e-4});
+  range_scan.head.angles = {0.2, 0.21, 0.22};
+  range_scan.head.mount_frame = "active_sensor";
+  range_scan.head.origin = {0.05, -0.03};
   return range_scan;
 }
 
@@ -42,16 +39,16 @@ TEST(RangeScanReader, ReadsWhatWasWritten) {
   const auto after = RangeScanReader().read(toMessage(before));
   EXPECT_EQ(after.scan.stamp, before.scan.stamp);
   EXPECT_EQ(after.scan.frame, "projection");
-  EXPECT_EQ(after.scan.kinds, before.scan.kinds);
-  EXPECT_EQ(after.scan.range_variances, before.scan.range_variances);
-  EXPECT_NEAR(after.scan.ranges[2], 2.0, 1e-7);
-  EXPECT_NEAR(after.scan.intensities[0], 26e-9, 1e-14);
-  EXPECT_EQ(after.head_angles, before.head_angles);
-  EXPECT_EQ(after.origin, before.origin);
-  EXPECT_EQ(after.mount_frame, "active_sensor");
-  ASSERT_EQ(after.scan.sensor_motion.size(), 3u);
-  EXPECT_NEAR(after.scan.sensor_motion[2].theta(), 0.02, 1e-12);
-  EXPECT_NEAR(after.scan.geometry->timeOffsets()[2], 8e-4, 1e-9);
+  EXPECT_EQ(after.scan.kinds(), before.scan.kinds());
+  EXPECT_EQ(after.scan.rangeVariances(), before.scan.rangeVariances());
+  EXPECT_NEAR(after.scan.ranges()[2], 2.0, 1e-7);
+  EXPECT_NEAR(after.scan.intensities()[0], 26e-9, 1e-14);
+  EXPECT_EQ(after.head.angles, before.head.angles);
+  EXPECT_EQ(after.head.origin, before.head.origin);
+  EXPECT_EQ(after.head.mount_frame, "active_sensor");
+  ASSERT_EQ(after.scan.sensorMotion().size(), 3u);
+  EXPECT_NEAR(after.scan.sensorMotion()[2].theta(), 0.02, 1e-12);
+  EXPECT_NEAR(after.scan.geometry()->timeOffsets()[2], 8e-4, 1e-9);
 }
 
 TEST(RangeScanReader, NamesWhatIsWrong) {
@@ -97,7 +94,7 @@ TEST(HeadCommand, BecomesWhatTheServoShallDo) {
   message.mode = HeadCommand::POSITION;
   message.position = 0.3;
   const auto command = fromMessage(message, "head_joint", {});
-  EXPECT_EQ(command.mode, triangulation::HeadCommand::Mode::kPosition);
+  EXPECT_EQ(command.mode, motion::HeadCommand::Mode::kPosition);
   EXPECT_EQ(command.position, 0.3);
   message.joint = "elbow";
   EXPECT_THROW(fromMessage(message, "head_joint", {}), InvalidHeadCommand);

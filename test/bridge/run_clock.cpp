@@ -53,7 +53,7 @@ TEST_F(FollowingClock, GoesOnFromWhereItIsWhenRosJumps) {
 TEST(OdometryMessage, HoldsPoseTwistAndTheirCovariances) {
   geometry::UncertainPose2 pose{{1.0, 2.0, 0.5}, Eigen::Matrix3d::Zero()};
   pose.covariance << 1, 2, 3, 2, 5, 6, 3, 6, 9;
-  const UncertainTwist2 twist{{0.4, 0.01, -0.2}, 0.1 * pose.covariance};
+  const geometry::UncertainTwist2 twist{{0.4, 0.01, -0.2}, 0.1 * pose.covariance};
   const auto message = toOdometryMessage({7'000'000'005, "odom", "base_link"}, pose, twist);
   EXPECT_EQ(message.header.stamp, ros::Time(7, 5));
   EXPECT_EQ(message.header.frame_id, "odom");

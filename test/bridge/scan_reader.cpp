@@ -47,23 +47,23 @@ TEST(ScanReader, TakesOverWhatTheMessageSays) {
   const scan::Scan scan = ScanReader(noise).read(scan_message);
   EXPECT_EQ(scan.stamp, 12'000'000'345);
   EXPECT_EQ(scan.frame, "laser");
-  EXPECT_THAT(scan.ranges, testing::ElementsAre(1.0, 2.0, 3.0, 4.0, 5.0));
-  EXPECT_THAT(scan.intensities, testing::ElementsAre(5.0, 6.0, 7.0, 8.0, 9.0));
-  EXPECT_THAT(scan.kinds, testing::Each(ReturnKind::kValid));
-  EXPECT_THAT(scan.range_variances, testing::Each(testing::DoubleNear(9e-4, 1e-9)));
-  EXPECT_DOUBLE_EQ(scan.geometry->angles()[2], 0.0);
-  EXPECT_NEAR(scan.geometry->timeOffsets()[4], 0.004, 1e-9);
-  EXPECT_TRUE(scan.sensor_motion.empty());
+  EXPECT_THAT(scan.ranges(), testing::ElementsAre(1.0, 2.0, 3.0, 4.0, 5.0));
+  EXPECT_THAT(scan.intensities(), testing::ElementsAre(5.0, 6.0, 7.0, 8.0, 9.0));
+  EXPECT_THAT(scan.kinds(), testing::Each(ReturnKind::kValid));
+  EXPECT_THAT(scan.rangeVariances(), testing::Each(testing::DoubleNear(9e-4, 1e-9)));
+  EXPECT_DOUBLE_EQ(scan.geometry()->angles()[2], 0.0);
+  EXPECT_NEAR(scan.geometry()->timeOffsets()[4], 0.004, 1e-9);
+  EXPECT_TRUE(scan.sensorMotion().empty());
 }
 
 TEST(ScanReader, SortsReturnsByRep117) {
   auto scan_message = message();
   scan_message.ranges = {kNan, kInfinity, -kInfinity, 0.0F, -1.0F};
-  EXPECT_THAT(ScanReader().read(scan_message).kinds,
+  EXPECT_THAT(ScanReader().read(scan_message).kinds(),
               testing::ElementsAre(ReturnKind::kInvalid, ReturnKind::kNothing, ReturnKind::kTooNear,
                                    ReturnKind::kInvalid, ReturnKind::kInvalid));
   scan_message.ranges = {0.05F, 0.1F, 10.0F, 10.1F, 5.0F};
-  EXPECT_THAT(ScanReader().read(scan_message).kinds,
+  EXPECT_THAT(ScanReader().read(scan_message).kinds(),
               testing::ElementsAre(ReturnKind::kTooNear, ReturnKind::kValid, ReturnKind::kValid,
                                    ReturnKind::kNothing, ReturnKind::kValid));
 }
@@ -119,14 +119,14 @@ TEST(ScanReader, AGoodScanAfterABadOneIsRead) {
 
 TEST(ScanReader, KeepsTheGeometryOfOneSensorAndMakesANewOneForAnother) {
   ScanReader reader;
-  const auto first = reader.read(message()).geometry;
-  EXPECT_EQ(reader.read(message()).geometry, first);
+  const auto first = reader.read(message()).geometry();
+  EXPECT_EQ(reader.read(message()).geometry(), first);
   auto longer = message();
   longer.ranges.push_back(6.0F);
-  const auto second = reader.read(longer).geometry;
+  const auto second = reader.read(longer).geometry();
   EXPECT_NE(second, first);
   EXPECT_EQ(second->beams(), 6U);
-  EXPECT_EQ(reader.read(message()).geometry->beams(), 5U);
+  EXPECT_EQ(reader.read(message()).geometry()->beams(), 5U);
 }
 
 TEST(ScanReader, NegativeIncrementsTurnClockwise) {
@@ -134,8 +134,8 @@ TEST(ScanReader, NegativeIncrementsTurnClockwise) {
   scan_message.angle_min = 1.0F;
   scan_message.angle_increment = -0.5F;
   const scan::Scan scan = ScanReader().read(scan_message);
-  EXPECT_DOUBLE_EQ(scan.geometry->angles()[0], 1.0);
-  EXPECT_DOUBLE_EQ(scan.geometry->angles()[4], -1.0);
+  EXPECT_DOUBLE_EQ(scan.geometry()->angles()[0], 1.0);
+  EXPECT_DOUBLE_EQ(scan.geometry()->angles()[4], -1.0);
 }
 
 TEST(ScanReader, UpsideDownTurnsTheOtherWay) {
@@ -144,7 +144,7 @@ TEST(ScanReader, UpsideDownTurnsTheOtherWay) {
   reader.setUpsideDown(true);
   const scan::Scan turned = reader.read(message());
   for (std::size_t i = 0; i < upright.beams(); ++i) {
-    EXPECT_DOUBLE_EQ(turned.geometry->angles()[i], -upright.geometry->angles()[i]);
+    EXPECT_DOUBLE_EQ(turned.geometry()->angles()[i], -upright.geometry()->angles()[i]);
     EXPECT_DOUBLE_EQ(turned.point(i).y(), -upright.point(i).y());
   }
 }

@@ -71,10 +71,10 @@ TEST(BeamsOnFloor, AreThoseThatCameAsFarAsTheFloor) {
   const geometry::Attitude attitude{0.0, radians(10.0)};
   const auto scan = lookInto(corridor(), Pose2(), attitude);
   const auto on_floor = beamsOnFloor({}, scan, {attitude, attitude});
-  EXPECT_NEAR(scan.ranges[180], 6.91, 0.01);
+  EXPECT_NEAR(scan.ranges()[180], 6.91, 0.01);
   EXPECT_TRUE(on_floor[180]);
   const auto beam = static_cast<std::size_t>(180 + 16);
-  EXPECT_NEAR(scan.ranges[beam], 1.2 / (std::sin(radians(10.0)) * std::cos(radians(8.0))), 1e-3);
+  EXPECT_NEAR(scan.ranges()[beam], 1.2 / (std::sin(radians(10.0)) * std::cos(radians(8.0))), 1e-3);
   EXPECT_TRUE(on_floor[beam]);
   EXPECT_FALSE(on_floor[180 + 60]) << "at 30 degrees the wall is nearer";
   // The floor is nearer than the wall within 9 degrees; two sigma of the tilt make that a little
@@ -87,7 +87,7 @@ TEST(BeamsOnFloor, LeaningBackTheyAreOnTheCeiling) {
   const auto scan = lookInto(corridor(), Pose2(), attitude);
   FloorConfig config;
   config.headroom = 1.4;
-  EXPECT_NEAR(scan.ranges[180], 1.4 / std::sin(radians(9.0)), 1e-3);
+  EXPECT_NEAR(scan.ranges()[180], 1.4 / std::sin(radians(9.0)), 1e-3);
   EXPECT_TRUE(beamsOnFloor(config, scan, {attitude, attitude})[180]);
 }
 
@@ -106,7 +106,7 @@ TEST(BeamsOnFloor, TheAttitudeChangesDuringTheSweep) {
     const double share = static_cast<double>(time) / duration;
     return leaning(Pose2(), {0.0, first.pitch + share * (last.pitch - first.pitch)});
   });
-  EXPECT_NEAR(scan.ranges[180], 1.2 / std::sin(radians(7.0)), 0.01);
+  EXPECT_NEAR(scan.ranges()[180], 1.2 / std::sin(radians(7.0)), 0.01);
   EXPECT_TRUE(beamsOnFloor({}, scan, {first, last})[180]);
   EXPECT_FALSE(beamsOnFloor({}, scan, {first, first})[180]);
 }
@@ -116,8 +116,8 @@ TEST(Levelled, WallsAreWhereALevelScannerSeesThem) {
        {geometry::Attitude{0.0, 0.15}, {0.1, 0.0}, {-0.08, -0.12}}) {
     const auto scan = lookInto(corridor(), Pose2(0.0, 0.2, 0.1), attitude);
     const auto level = levelled(scan, {attitude, attitude});
-    EXPECT_NEAR(level.ranges[180] * level.geometry->cosines()[180],
-                scan.ranges[180] * std::cos(attitude.pitch), 1e-9);
+    EXPECT_NEAR(level.ranges()[180] * level.geometry()->cosines()[180],
+                scan.ranges()[180] * std::cos(attitude.pitch), 1e-9);
     int walls = 0;
     for (std::size_t i = 0; i < level.beams(); ++i) {
       const Eigen::Vector2d point = Pose2(0.0, 0.2, 0.1) * level.point(i);
@@ -135,8 +135,8 @@ TEST(Levelled, AnUprightScanStaysAsItIs) {
   const auto level = levelled(scan, {});
 
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    EXPECT_NEAR(level.ranges[i], scan.ranges[i], 1e-12 * scan.ranges[i]);
-    EXPECT_NEAR(level.geometry->angles()[i], scan.geometry->angles()[i], 1e-12);
+    EXPECT_NEAR(level.ranges()[i], scan.ranges()[i], 1e-12 * scan.ranges()[i]);
+    EXPECT_NEAR(level.geometry()->angles()[i], scan.geometry()->angles()[i], 1e-12);
   }
 }
 
@@ -145,8 +145,8 @@ TEST(Without, MakesBeamsInvalid) {
   std::vector<bool> beams(scan.beams());
   beams[17] = true;
   const auto rest = without(scan, beams);
-  EXPECT_EQ(rest.kinds[17], scan::ReturnKind::kInvalid);
-  EXPECT_EQ(rest.kinds[18], scan::ReturnKind::kValid);
+  EXPECT_EQ(rest.kinds()[17], scan::ReturnKind::kInvalid);
+  EXPECT_EQ(rest.kinds()[18], scan::ReturnKind::kValid);
 }
 
 // How often beams are called what they are.
@@ -173,11 +173,11 @@ Calls walk(bool nods, std::uint64_t seed) {
       const auto found = finder.find(scan, T_map_sensor);
       finder.remember(scan, T_map_sensor);
       for (std::size_t i = 0; i < scan.beams(); ++i) {
-        const auto time = scan.stamp + std::llround(1e9 * scan.geometry->timeOffsets()[i]);
+        const auto time = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets()[i]);
         const Eigen::Isometry3d T_map_scanner = simulation::inSpace(simulation.T_map_base(time)) *
                                                 simulation.bodyMotion(time).outOfPlane(1.2) *
                                                 Eigen::Translation3d(0.0, 0.0, 1.2);
-        const Eigen::Vector3d ray(scan.geometry->cosines()[i], scan.geometry->sines()[i], 0.0);
+        const Eigen::Vector3d ray(scan.geometry()->cosines()[i], scan.geometry()->sines()[i], 0.0);
         const auto hit = world.cast({T_map_scanner.translation(), T_map_scanner.linear() * ray});
         const bool is_floor = hit && !hit->segment && scan.isValid(i);
         calls.found += is_floor && found[i];
@@ -217,13 +217,10 @@ TEST(FloorFinder, KnowsNothingBeforeItRemembersAnything) {
 TEST(FloorFinder, TakesScansWithoutReturnsAndOfFewBeams) {
   FloorFinder finder(FloorConfig{});
   auto scan = lookInto(corridor(), Pose2(), {});
-  std::fill(scan.kinds.begin(), scan.kinds.end(), scan::ReturnKind::kInvalid);
+  for (std::size_t i = 0; i < scan.beams(); ++i) scan.setKind(i, scan::ReturnKind::kInvalid);
   finder.remember(scan, Pose2());
   EXPECT_EQ(count(finder.find(scan, Pose2())), 0);
-  scan::Scan one;
-  one.geometry = scan::ScanGeometry::uniform(0.0, 0.1, 1, 0.0, 0.1, 30.0);
-  one.ranges = {10.0};
-  one.kinds = {scan::ReturnKind::kValid};
+  const scan::Scan one(scan::ScanGeometry::uniform(0.0, 0.1, 1, 0.0, 0.1, 30.0), 0, {10.0});
   finder.remember(one, Pose2());
   EXPECT_EQ(count(finder.find(lookInto(corridor(), Pose2(), {}), Pose2())), 0);
   EXPECT_EQ(count(finder.find(one, Pose2())), 0);

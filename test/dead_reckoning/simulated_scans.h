@@ -75,15 +75,13 @@ class Viewer {
   /// body velocity while it lasts.
   scan::Scan look(const geometry::Pose2& T_map_sensor, double stamp,
                   const Eigen::Vector3d& twist = Eigen::Vector3d::Zero()) {
-    scan::Scan scan;
-    scan.geometry = geometry_;
-    scan.stamp = std::llround(1e9 * stamp);
+    std::vector<double> ranges;
     for (std::size_t i = 0; i < geometry_->beams(); ++i) {
       const geometry::Pose2 moved =
           T_map_sensor * geometry::Pose2::exp(geometry_->timeOffsets()[i] * twist);
-      scan.ranges.push_back(range(moved, geometry_->angles()[i]));
-      scan.kinds.push_back(scan::classify(scan.ranges.back(), *geometry_));
+      ranges.push_back(range(moved, geometry_->angles()[i]));
     }
+    scan::Scan scan(geometry_, std::llround(1e9 * stamp), std::move(ranges));
     scan::NoiseModel noise;
     noise.sigma = kSigma;
     scan::applyNoise(noise, scan);

@@ -35,7 +35,7 @@ std::string faultOf(const std::string& xml, const HeadFrames& frames = kFrames) 
 
 TEST(HeadJoint, ShippedDescriptionIsThatOfTheSensor) {
   const HeadJoint joint = HeadJoint::fromUrdf(shippedUrdf(), kFrames, "robot");
-  const triangulation::HeadLimits limits;
+  const motion::HeadLimits limits;
   const triangulation::ScanOrigin origin;
   EXPECT_NEAR(joint.limits.lower, limits.lower, 1e-12);
   EXPECT_NEAR(joint.limits.upper, limits.upper, 1e-12);

@@ -69,7 +69,7 @@ TEST(WireFormat, ChecksumsAreTheStandardOnes) {
 
 TEST(WireFormat, MessagesComeBackAsTheyWereSent) {
   EXPECT_EQ(sentAndRead(Ping{123456789}).token, 123456789U);
-  using Mode = triangulation::HeadCommand::Mode;
+  using Mode = motion::HeadCommand::Mode;
   const auto target = sentAndRead(HeadTarget{{Mode::kPosition, -1.570796, 3.5}}).command;
   EXPECT_EQ(target.mode, Mode::kPosition);
   EXPECT_NEAR(target.position, -1.570796, 1e-12);

@@ -1,4 +1,5 @@
 #include "sightline/fitting/line_fit.h"
+#include "sightline/geometry/statistics.h"
 
 #include <limits>
 
@@ -17,7 +18,7 @@ using geometry::kPi;
 using geometry::PolarLine;
 
 // χ² with two degrees of freedom.
-constexpr double kGate95 = 5.991;
+constexpr double kGate95 = geometry::kChiSquare95Of2;
 
 enum class Noise { kRange, kIsotropic, kRangeAndAngle };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lines/room_scan.h"
+#include "sightline/geometry/statistics.h"
 #include "sightline/lines/line_extractor.h"
 
 // Whether the covariances tell the truth: squared errors in their units (NEES) average to the two
@@ -13,7 +14,7 @@ namespace {
 using test::Gauss;
 using test::ScanOf;
 
-constexpr double kGate95 = 5.991464547107979;  // χ², two degrees of freedom
+constexpr double kGate95 = geometry::kChiSquare95Of2;
 constexpr int kRuns = 2000;
 
 struct Consistency {

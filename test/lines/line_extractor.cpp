@@ -107,8 +107,7 @@ TEST(LineExtractor, ASensorThatTurnsTheOtherWaySeesTheSameLines) {
     backward.angle_min = -forward.angle_min;
     backward.angle_increment = -forward.angle_increment;
     const scan::Scan scan = forward.take(gauss);
-    scan::Scan reversed = backward.takeWithoutNoise();
-    reversed.ranges.assign(scan.ranges.rbegin(), scan.ranges.rend());
+    const scan::Scan reversed = backward.withRanges({scan.ranges().rbegin(), scan.ranges().rend()});
     const auto there = extract(scan);
     const auto back = extract(reversed);
     ASSERT_EQ(there.size(), back.size());

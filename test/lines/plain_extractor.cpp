@@ -16,19 +16,19 @@ using geometry::Pose2;
 
 // A turning or standing sensor in front of an endless wall, given in its frame at the stamp.
 scan::Scan plainScan(const PolarLine& wall, double turn, double sigma, test::Gauss& gauss) {
-  scan::Scan scan;
-  scan.geometry = scan::ScanGeometry::uniform(-0.35, 0.7 / 255.0, 256, 4e-4, 0.1, 10.0);
+  const auto beams = scan::ScanGeometry::uniform(-0.35, 0.7 / 255.0, 256, 4e-4, 0.1, 10.0);
   const Pose2 T_start_end(0.0, 0.0, turn);
   const Pose2 T_head_sensor(0.05, -0.03, 0.0);
-  scan.sensor_motion = motion::sweepMotion(*scan.geometry, T_start_end, T_head_sensor);
-  for (std::size_t i = 0; i < scan.geometry->beams(); ++i) {
-    const Pose2 pose = scan.sensor_motion.empty() ? Pose2() : scan.sensor_motion[i];
+  const auto motion = motion::sweepMotion(*beams, T_start_end, T_head_sensor);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < beams->beams(); ++i) {
+    const Pose2 pose = motion.empty() ? Pose2() : motion[i];
     const PolarLine seen = geometry::transform(pose.inverse(), wall);
-    const double angle = scan.geometry->angles()[i];
-    scan.ranges.push_back(seen.rho / std::cos(seen.phi - angle) + gauss(sigma));
+    ranges.push_back(seen.rho / std::cos(seen.phi - beams->angles()[i]) + gauss(sigma));
   }
-  scan.kinds.assign(scan.ranges.size(), scan::ReturnKind::kValid);
-  scan.range_variances.assign(scan.ranges.size(), sigma * sigma);
+  scan::Scan scan(beams, 0, std::move(ranges));
+  scan.setRangeVariances(std::vector<double>(beams->beams(), sigma * sigma));
+  scan.setSensorMotion(motion);
   return scan;
 }
 
@@ -61,7 +61,7 @@ TEST(PlainExtractor, StartsAnewWhereAnObservationIsNotValidated) {
   test::Gauss gauss(1);
   scan::Scan scan = plainScan({1.5, 0.0, Eigen::Matrix2d::Zero()}, 0.0, 1e-6, gauss);
   const scan::Scan behind = plainScan({2.0, 0.0, Eigen::Matrix2d::Zero()}, 0.0, 1e-6, gauss);
-  std::copy(behind.ranges.begin() + 128, behind.ranges.end(), scan.ranges.begin() + 128);
+  for (std::size_t i = 128; i < 256; ++i) scan.setRange(i, behind.ranges()[i]);
   LineExtractorConfig config;
   config.gate = 5.0;
   PlainExtractor extractor(config);
@@ -77,14 +77,13 @@ TEST(PlainExtractor, SkipsReturnsThatAreNotValid) {
   test::Gauss gauss(1);
   scan::Scan scan = plainScan({1.5, 0.0, Eigen::Matrix2d::Zero()}, 0.0, 1e-6, gauss);
   for (std::size_t i = 0; i < 256; i += 3) {
-    scan.kinds[i] = scan::ReturnKind::kInvalid;
-    scan.ranges[i] = std::nan("");
+    scan.setRange(i, std::nan(""));
   }
   LineExtractorConfig config;
   config.gate = 5.0;
   PlainExtractor extractor(config);
   ASSERT_EQ(extractor.extract(scan).size(), 1u);
-  scan.kinds.assign(256, scan::ReturnKind::kInvalid);
+  for (std::size_t i = 0; i < 256; ++i) scan.setKind(i, scan::ReturnKind::kInvalid);
   EXPECT_TRUE(extractor.extract(scan).empty());
 }
 

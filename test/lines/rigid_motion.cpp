@@ -56,9 +56,7 @@ RC_GTEST_PROP(RigidMotion, TurningTheSensorTurnsTheLines, ()) {
   ScanOf turned = room;
   turned.angle_min += turn;
   const scan::Scan scan = room.take(gauss);
-  scan::Scan turned_scan = turned.takeWithoutNoise();
-  turned_scan.ranges = scan.ranges;
-  turned.classify(turned_scan);
+  const scan::Scan turned_scan = turned.withRanges(scan.ranges());
 
   LineExtractor first;
   LineExtractor second;

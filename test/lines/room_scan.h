@@ -34,11 +34,14 @@ struct ScanOf {
   scan::Scan take(Gauss& gauss) const { return take(&gauss); }
   scan::Scan takeWithoutNoise() const { return take(nullptr); }
 
-  /// From the ranges that are in a scan.
-  void classify(scan::Scan& scan) const {
-    scan.kinds.clear();
-    for (const double r : scan.ranges) scan.kinds.push_back(scan::classify(r, *scan.geometry));
+  /// The scan that these ranges make [m].
+  scan::Scan withRanges(std::vector<double> ranges) const {
+    scan::Scan scan(
+        scan::ScanGeometry::uniform(angle_min, angle_increment, beams, 1e-5, 0.02, range_max),
+        1'000'000'000, std::move(ranges));
+    scan.frame = "laser";
     scan::applyNoise(noise, scan);
+    return scan;
   }
 
   /// What the beam sees; infinite where it meets nothing.
@@ -67,18 +70,17 @@ struct ScanOf {
 
  private:
   scan::Scan take(Gauss* gauss) const {
-    scan::Scan scan;
-    scan.geometry =
-        scan::ScanGeometry::uniform(angle_min, angle_increment, beams, 1e-5, 0.02, range_max);
-    scan.stamp = 1'000'000'000;
-    scan.frame = "laser";
+    std::vector<double> ranges;
+    std::vector<geometry::Pose2> moved;
     for (std::size_t i = 0; i < beams; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(beams - 1);
-      const geometry::Pose2 moved = geometry::Pose2::exp(share * motion);
-      if (!motion.isZero()) scan.sensor_motion.push_back(moved);
-      scan.ranges.push_back(measure(pose * moved, scan.geometry->angles()[i], gauss));
+      moved.push_back(geometry::Pose2::exp(share * motion));
+      const double angle =
+          i == 0 ? angle_min : angle_min + static_cast<double>(i) * angle_increment;
+      ranges.push_back(measure(pose * moved.back(), angle, gauss));
     }
-    classify(scan);
+    scan::Scan scan = withRanges(std::move(ranges));
+    if (!motion.isZero()) scan.setSensorMotion(std::move(moved));
     return scan;
   }
 

@@ -17,9 +17,9 @@ using test::kNan;
 using test::ScanOf;
 
 std::vector<LineSegment> linesOf(const ScanOf& of, const scan::Scan& scan) {
-  scan::Scan classified = scan;
-  of.classify(classified);
-  return LineExtractor().extract(classified);
+  scan::Scan known = scan;
+  scan::applyNoise(of.noise, known);
+  return LineExtractor().extract(known);
 }
 
 TEST(Walls, BadReturnsDoNotCutThem) {
@@ -27,12 +27,14 @@ TEST(Walls, BadReturnsDoNotCutThem) {
   const ScanOf of = test::room();
   for (int i = 0; i < 100; ++i) {
     scan::Scan scan = of.take(gauss);
-    for (double& range : scan.ranges) {
+    for (std::size_t beam = 0; beam < scan.beams(); ++beam) {
+      double range = scan.ranges()[beam];
       const double chance = gauss.uniform(0.0, 1.0);
       if (chance < 0.02) range = kNan;
       if (chance > 0.02 && chance < 0.04) range = std::numeric_limits<double>::infinity();
       if (chance > 0.04 && chance < 0.06) range = 0.0;
       if (chance > 0.06 && chance < 0.07) range = gauss.uniform(0.5, 4.0);  // stray
+      scan.setRange(beam, range);
     }
     EXPECT_EQ(linesOf(of, scan).size(), 5U);
   }
@@ -44,8 +46,8 @@ TEST(Walls, MissingReturnsInterruptThemBeyondTheGapLimit) {
   for (const bool wide : {false, true}) {
     scan::Scan scan = of.take(gauss);
     for (std::size_t i = 0; i < scan.beams(); ++i) {
-      const double x = 2.0 / std::tan(scan.geometry->angles()[i]);
-      if (std::abs(x) < (wide ? 0.2 : 0.1)) scan.ranges[i] = kNan;
+      const double x = 2.0 / std::tan(scan.geometry()->angles()[i]);
+      if (std::abs(x) < (wide ? 0.2 : 0.1)) scan.setRange(i, kNan);
     }
     EXPECT_EQ(linesOf(of, scan).size(), wide ? 2U : 1U);
   }

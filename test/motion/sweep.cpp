@@ -56,15 +56,16 @@ TEST(SweepMotion, EveryBeamOfAMovingSensorSeesAStaticPointInOnePlace) {
 TEST(SweepMotion, ScanPutsPointsIntoTheFrameAtTheStamp) {
   const Pose2 T_carrier_sensor(0.3, -0.1, 0.4);
   const Pose2 T_start_end(0.05, 0.0, 0.08);
-  scan::Scan scan;
-  scan.geometry = sweeping();
-  scan.sensor_motion = sweepMotion(*scan.geometry, T_start_end, T_carrier_sensor);
+  const auto geometry = sweeping();
+  const auto motion = sweepMotion(*geometry, T_start_end, T_carrier_sensor);
+  std::vector<double> ranges;
   // A wall x = 3 in the sensor's frame at the stamp, met by each beam from where the sensor is.
-  for (std::size_t i = 0; i < scan.geometry->beams(); ++i) {
-    const Pose2& T_start_beam = scan.sensor_motion[i];
-    const double heading = T_start_beam.theta() + scan.geometry->angles()[i];
-    scan.ranges.push_back((3.0 - T_start_beam.x()) / std::cos(heading));
+  for (std::size_t i = 0; i < geometry->beams(); ++i) {
+    const double heading = motion[i].theta() + geometry->angles()[i];
+    ranges.push_back((3.0 - motion[i].x()) / std::cos(heading));
   }
+  scan::Scan scan(geometry, 0, std::move(ranges));
+  scan.setSensorMotion(motion);
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     EXPECT_NEAR(scan.point(i).x(), 3.0, 1e-12);
   }

@@ -292,7 +292,7 @@ TEST(LaserOdometryNode, ScansWithHolesAndFewerBeamsAreMatchedAllTheSame) {
   for (int i = 0; i < 20; ++i) {
     auto scan = robot.nextScan();
     for (std::size_t beam = static_cast<std::size_t>(i); beam < scan.beams(); beam += 7) {
-      scan.kinds[beam] = i % 2 == 0 ? scan::ReturnKind::kInvalid : scan::ReturnKind::kNothing;
+      scan.setKind(beam, i % 2 == 0 ? scan::ReturnKind::kInvalid : scan::ReturnKind::kNothing);
     }
     EXPECT_LT(robot.errorOf(robot.send(scan)).translation().norm(), 0.05);
   }
@@ -326,7 +326,9 @@ TEST(LaserOdometryNode, WheelsBringItThroughScansThatSayNothing) {
       << "it begins where the wheels are";
   for (int i = 0; i < 40; ++i) {
     auto scan = robot.nextScan();
-    if (i > 10 && i < 20) scan.kinds.assign(scan.beams(), scan::ReturnKind::kNothing);
+    for (std::size_t beam = 0; beam < scan.beams() && i > 10 && i < 20; ++beam) {
+      scan.setKind(beam, scan::ReturnKind::kNothing);
+    }
     const auto answer = robot.send(scan);
     EXPECT_LT(robot.errorOf(answer).translation().norm(), 0.05) << i;
   }

@@ -26,10 +26,10 @@ class Quantisation {
 
   const scan::Scan& exact() const { return exact_.scan; }
 
-  void expectSame(const triangulation::RangeScan& published) {
-    ASSERT_EQ(published.scan.ranges.size(), exact_.scan.ranges.size());
-    for (std::size_t beam = 0; beam < exact_.scan.ranges.size(); ++beam) {
-      EXPECT_NEAR(published.head_angles[beam], exact_.head_angles[beam], 1.001 * kHalfAngle);
+  void expectSame(const motion::RangeScan& published) {
+    ASSERT_EQ(published.scan.ranges().size(), exact_.scan.ranges().size());
+    for (std::size_t beam = 0; beam < exact_.scan.ranges().size(); ++beam) {
+      EXPECT_NEAR(published.head.angles[beam], exact_.head.angles[beam], 1.001 * kHalfAngle);
       expectSame(published.scan, beam);
     }
   }
@@ -48,16 +48,16 @@ class Quantisation {
   // What is nearly out of range or nearly too dark may be so.
   void expectSame(const scan::Scan& published, std::size_t beam) {
     const auto readings = readingsNear(beam);
-    const auto kind = published.kinds[beam];
+    const auto kind = published.kinds()[beam];
     EXPECT_TRUE(std::any_of(readings.begin(), readings.end(),
                             [&](const auto& reading) { return reading.kind == kind; }));
     if (!published.isValid(beam) || !exact_.scan.isValid(beam)) return;
     double bound = 1e-6;  // [m]: the message holds single precision
     for (const auto& reading : readings) {
       if (reading.kind == scan::ReturnKind::kInvalid) continue;
-      bound = std::max(bound, 1e-6 + std::abs(reading.range - exact_.scan.ranges[beam]));
+      bound = std::max(bound, 1e-6 + std::abs(reading.range - exact_.scan.ranges()[beam]));
     }
-    EXPECT_NEAR(published.ranges[beam], exact_.scan.ranges[beam], bound);
+    EXPECT_NEAR(published.ranges()[beam], exact_.scan.ranges()[beam], bound);
     largest_ = std::max(largest_, bound);
   }
 
@@ -73,7 +73,7 @@ class Quantisation {
 
   triangulation::Ranger ranger_{simulation::ActiveSensorProfile{}.calibrated()};
   triangulation::RawScan measured_;
-  triangulation::RangeScan exact_;
+  motion::RangeScan exact_;
   double largest_ = 0.0;
 };
 

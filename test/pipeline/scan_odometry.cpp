@@ -1,4 +1,5 @@
 #include "sightline/pipeline/scan_odometry.h"
+#include "scan_edits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,7 @@ class Walk {
   Pose2 truthAt(std::int64_t stamp) const { return simulation_.T_map_base(stamp); }
 
   dead_reckoning::SweepAttitude attitudeOf(const scan::Scan& scan) const {
-    const auto end = scan.stamp + std::llround(1e9 * scan.geometry->timeOffsets().back());
+    const auto end = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets().back());
     return {simulation_.bodyMotion(scan.stamp).attitude, simulation_.bodyMotion(end).attitude};
   }
 
@@ -160,7 +161,7 @@ TEST(ScanOdometry, AGyroscopeBringsItThroughScansThatSayNothing) {
     if (!first) first = truth;
     const double time = 1e-9 * static_cast<double>(scan.stamp);
     if (time > 3.0 && time < 3.5) {
-      std::fill(scan.kinds.begin(), scan.kinds.end(), scan::ReturnKind::kInvalid);
+      test::setKinds(scan, scan::ReturnKind::kInvalid);
     }
     OdometryAids aids;
     if (before) {
@@ -208,7 +209,7 @@ TEST(ScanOdometry, AnHourOfScansThatSayNothingIsOutlived) {
   walk.run(3.0, [&](scan::Scan scan) {
     if (++scans == 20) {
       scan::Scan blind = scan;
-      std::fill(blind.kinds.begin(), blind.kinds.end(), scan::ReturnKind::kInvalid);
+      test::setKinds(blind, scan::ReturnKind::kInvalid);
       for (; delay < 3'600'000'000'000; delay += 2'500'000'000) {
         blind.stamp = scan.stamp + delay;
         const auto update = odometry.update(blind, Pose2());

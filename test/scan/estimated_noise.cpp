@@ -17,9 +17,9 @@ double sigmaAt(const Scan& scan, double range) {
   double nearest = std::numeric_limits<double>::infinity();
   double sigma = 0.0;
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    if (std::abs(scan.ranges[i] - range) > nearest) continue;
-    nearest = std::abs(scan.ranges[i] - range);
-    sigma = std::sqrt(scan.range_variances[i]);
+    if (std::abs(scan.ranges()[i] - range) > nearest) continue;
+    nearest = std::abs(scan.ranges()[i] - range);
+    sigma = std::sqrt(scan.rangeVariances()[i]);
   }
   return sigma;
 }
@@ -32,9 +32,9 @@ TEST(EstimatedNoise, IsThatOfTheBeams) {
     double sum = 0.0;
     for (int i = 0; i < 50; ++i) {
       Scan scan = of.take(gauss);
-      scan.range_variances.assign(scan.beams(), 0.0);
+      scan.setRangeVariances(std::vector<double>(scan.beams(), 0.0));
       raiseToEstimate(scan);
-      for (const double variance : scan.range_variances) {
+      for (const double variance : scan.rangeVariances()) {
         sum += variance / static_cast<double>(scan.beams());
       }
     }
@@ -50,7 +50,7 @@ TEST(EstimatedNoise, GrowsWithTheRangeAsThatOfTheBeamsDoes) {
   of.noise.sigma = 0.002;
   of.noise.sigma_per_metre = 0.005;
   Scan scan = of.take(gauss);
-  scan.range_variances.assign(scan.beams(), 0.0);
+  scan.setRangeVariances(std::vector<double>(scan.beams(), 0.0));
   raiseToEstimate(scan);
   EXPECT_NEAR(sigmaAt(scan, 1.5), 0.0078, 0.004);
   EXPECT_NEAR(sigmaAt(scan, 7.0), 0.035, 0.015);
@@ -70,7 +70,7 @@ TEST(EstimatedNoise, IsNeverBelowTheLeast) {
   unknown.kind = NoiseKind::kEstimated;
   unknown.sigma = 0.01;
   applyNoise(unknown, scan);
-  for (const double variance : scan.range_variances) EXPECT_DOUBLE_EQ(variance, 1e-4);
+  for (const double variance : scan.rangeVariances()) EXPECT_DOUBLE_EQ(variance, 1e-4);
 }
 
 TEST(EstimatedNoise, ScansThatTellNothingKeepTheirs) {
@@ -79,12 +79,12 @@ TEST(EstimatedNoise, ScansThatTellNothingKeepTheirs) {
     of.beams = beams;
     Scan scan = of.takeWithoutNoise();
     EXPECT_TRUE(estimateNoise(scan).empty());
-    const auto before = scan.range_variances;
+    const auto before = scan.rangeVariances();
     raiseToEstimate(scan);
-    EXPECT_EQ(scan.range_variances, before);
+    EXPECT_EQ(scan.rangeVariances(), before);
   }
   Scan scan = test::room().takeWithoutNoise();
-  scan.kinds.assign(scan.beams(), ReturnKind::kInvalid);
+  for (std::size_t i = 0; i < scan.beams(); ++i) scan.setKind(i, ReturnKind::kInvalid);
   EXPECT_TRUE(estimateNoise(scan).empty());
 }
 

@@ -78,11 +78,9 @@ TEST(NoiseModel, NamesAFieldThatIsOutOfRange) {
 }
 
 Scan someScan(std::size_t beams) {
-  Scan scan;
-  scan.geometry = ScanGeometry::uniform(-0.5, 0.1, beams, 0.0, 0.1, 30.0);
-  for (std::size_t i = 0; i < beams; ++i) scan.ranges.push_back(1.0 + static_cast<double>(i));
-  scan.kinds.assign(beams, ReturnKind::kValid);
-  return scan;
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < beams; ++i) ranges.push_back(1.0 + static_cast<double>(i));
+  return {ScanGeometry::uniform(-0.5, 0.1, beams, 0.0, 0.1, 30.0), 0, std::move(ranges)};
 }
 
 TEST(ApplyNoise, FillsOneVarianceABeam) {
@@ -92,9 +90,9 @@ TEST(ApplyNoise, FillsOneVarianceABeam) {
   model.angular_sigma = 0.001;
   Scan scan = someScan(5);
   applyNoise(model, scan);
-  ASSERT_EQ(scan.range_variances.size(), 5u);
+  ASSERT_EQ(scan.rangeVariances().size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(scan.range_variances[i], model.rangeVariance(scan.ranges[i]));
+    EXPECT_EQ(scan.rangeVariances()[i], model.rangeVariance(scan.ranges()[i]));
   }
   EXPECT_DOUBLE_EQ(scan.angular_variance, 1e-6);
   EXPECT_EQ(scan.transverse_variance, 0.0);
@@ -116,10 +114,11 @@ TEST(ApplyNoise, TakesEachBeamsIntensity) {
   model.kind = NoiseKind::kIntensity;
   model.intensity_sigma = 0.1;
   Scan scan = someScan(3);
-  scan.intensities = {10.0, 100.0, 0.0};
+  scan.setIntensities({10.0, 100.0, 0.0});
   applyNoise(model, scan);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(scan.range_variances[i], model.rangeVariance(scan.ranges[i], scan.intensities[i]));
+    EXPECT_EQ(scan.rangeVariances()[i],
+              model.rangeVariance(scan.ranges()[i], scan.intensities()[i]));
   }
 }
 
@@ -173,7 +172,7 @@ TEST(UniformCovariance, IsWhatAScanOfUniformNoiseTellsToFirstOrder) {
   applyNoise(model, scan);
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     const Matrix2d exact =
-        uniformCovariance(scan.ranges[i], scan.geometry->angles()[i], 0.025, radians(0.25));
+        uniformCovariance(scan.ranges()[i], scan.geometry()->angles()[i], 0.025, radians(0.25));
     EXPECT_LT(test::relativeError(scan.covariance(i), exact), 1e-3);
   }
 }

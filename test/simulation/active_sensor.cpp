@@ -15,10 +15,10 @@
 namespace sightline::simulation {
 namespace {
 
+using motion::HeadCommand;
+using motion::RangeScan;
 using scan::ReturnKind;
-using triangulation::HeadCommand;
 using triangulation::Ranger;
-using triangulation::RangeScan;
 using Mode = HeadCommand::Mode;
 
 constexpr std::int64_t kScan = 102'400'000;  // ns, 256 samples at 2.5 kHz
@@ -81,8 +81,8 @@ TEST(ActiveSensor, RangesErrAsTheirVariancesSay) {
     const scan::Scan scan = firstScan(cardAhead(wall), profile, seed).scan;
     for (std::size_t i = 0; i < scan.beams(); ++i) {
       ASSERT_TRUE(scan.isValid(i));
-      const double truth = (wall - origin.x()) / scan.geometry->cosines()[i];
-      sum += std::pow(scan.ranges[i] - truth, 2) / scan.range_variances[i];
+      const double truth = (wall - origin.x()) / scan.geometry()->cosines()[i];
+      sum += std::pow(scan.ranges()[i] - truth, 2) / scan.rangeVariances()[i];
       ++count;
     }
   }
@@ -90,11 +90,11 @@ TEST(ActiveSensor, RangesErrAsTheirVariancesSay) {
 }
 
 TEST(ActiveSensor, TooLittleLightIsInvalidAndTooFarIsNothing) {
-  EXPECT_THAT(firstScan(cardAhead(2.3, 0.05)).scan.kinds, testing::Each(ReturnKind::kInvalid));
-  EXPECT_THAT(firstScan(world::World()).scan.kinds, testing::Each(ReturnKind::kInvalid));
+  EXPECT_THAT(firstScan(cardAhead(2.3, 0.05)).scan.kinds(), testing::Each(ReturnKind::kInvalid));
+  EXPECT_THAT(firstScan(world::World()).scan.kinds(), testing::Each(ReturnKind::kInvalid));
   const scan::Scan far = firstScan(cardAhead(2.75)).scan;
-  EXPECT_GT(std::count(far.kinds.begin(), far.kinds.end(), ReturnKind::kNothing), 200);
-  EXPECT_THAT(firstScan(cardAhead(0.43)).scan.kinds[128], ReturnKind::kTooNear);
+  EXPECT_GT(std::count(far.kinds().begin(), far.kinds().end(), ReturnKind::kNothing), 200);
+  EXPECT_THAT(firstScan(cardAhead(0.43)).scan.kinds()[128], ReturnKind::kTooNear);
 }
 
 // pears section 3.3: missing parts. The far wall beside a post is lit, but the post hides it from
@@ -107,15 +107,15 @@ TEST(ActiveSensor, APostMakesAMissingPartOnTheSideOfTheLens) {
   std::size_t missing_right = 0;
   const double post = std::atan2(0.03, 0.95);  // of its middle, from the scan's origin
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    if (scan.kinds[i] != ReturnKind::kInvalid) continue;
-    ++(scan.geometry->angles()[i] > post ? missing_left : missing_right);
+    if (scan.kinds()[i] != ReturnKind::kInvalid) continue;
+    ++(scan.geometry()->angles()[i] > post ? missing_left : missing_right);
   }
   EXPECT_EQ(missing_right, 0u);
   EXPECT_GT(missing_left, 5u);
 }
 
 TEST(SensorHead, TurnsAQuarterInHalfASecond) {
-  SensorHead head({});
+  motion::SensorHead head({});
   head.command({Mode::kPosition, geometry::radians(90.0), 0.0});
   for (int i = 0; i < 1240; ++i) head.step(0.0004);
   EXPECT_LT(head.angle(), geometry::radians(90.0));
@@ -125,8 +125,8 @@ TEST(SensorHead, TurnsAQuarterInHalfASecond) {
 }
 
 TEST(SensorHead, StaysWithinItsLimitsAndSteps) {
-  const triangulation::HeadLimits limits;
-  SensorHead head(limits);
+  const motion::HeadLimits limits;
+  motion::SensorHead head(limits);
   head.command({Mode::kRate, 0.0, -3.0});
   double least = 0.0;
   for (int i = 0; i < 2500; ++i) {
@@ -141,7 +141,7 @@ TEST(SensorHead, StaysWithinItsLimitsAndSteps) {
 }
 
 TEST(SensorHead, KeepsARateAndStops) {
-  SensorHead head({});
+  motion::SensorHead head({});
   head.command({Mode::kRate, 0.0, 0.8});
   for (int i = 0; i < 1250; ++i) head.step(0.0004);
   EXPECT_NEAR(head.rate(), 0.8, 1e-12);
@@ -153,18 +153,18 @@ TEST(SensorHead, KeepsARateAndStops) {
 }
 
 TEST(SensorHead, CountsOnlyStepsWithinItsLimits) {
-  triangulation::HeadLimits limits;
+  motion::HeadLimits limits;
   limits.upper = 1.5;  // between two steps
   EXPECT_LT(limits.rounded(1.5), 1.5);
   EXPECT_GT(limits.rounded(1.5), 1.5 - limits.resolution);
-  SensorHead head(limits);
+  motion::SensorHead head(limits);
   head.command({Mode::kPosition, 1.5, 0.0});
   for (int i = 0; i < 2500; ++i) head.step(0.0004);
   EXPECT_NEAR(head.angle(), limits.rounded(1.5), 1e-12);
 }
 
 TEST(SensorHead, DoesNothingThatItsLimitsForbid) {
-  SensorHead head({});
+  motion::SensorHead head({});
   head.command({Mode::kPosition, 2.0, 0.0});
   head.command({Mode::kPosition, std::nan(""), 0.0});
   head.command({Mode::kRate, 0.0, 50.0});
@@ -182,7 +182,7 @@ TEST(ActiveSensor, LinesHoldWhileTheHeadTurns) {
   lines::LineExtractor extractor;
   for (const auto& raw : sensor.advance(world, 6 * kScan, stillAt)) {
     const RangeScan range_scan = ranger.range(raw);
-    EXPECT_FALSE(range_scan.scan.sensor_motion.empty());
+    EXPECT_FALSE(range_scan.scan.sensorMotion().empty());
     const auto& segments = extractor.extract(range_scan.scan);
     ASSERT_EQ(segments.size(), 1u);
     const geometry::Pose2 T_map_projection = geometry::Pose2(0.0, 0.0, raw.head_angles[0]) *

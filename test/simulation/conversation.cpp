@@ -152,7 +152,7 @@ TEST_F(TwoEnds, GarbageIsAFault) {
 TEST_F(TwoEnds, HeadCommandsAreObeyedOrRefused) {
   connect();
   run(500 * kMs);
-  using HeadMode = triangulation::HeadCommand::Mode;
+  using HeadMode = motion::HeadCommand::Mode;
   host_.command({HeadMode::kPosition, 0.7, 0.0}, moment());
   run(50 * kMs);
   EXPECT_NEAR(device_.angle(), 0.7, 1e-9);
@@ -167,7 +167,7 @@ TEST_F(TwoEnds, HeadCommandsGrowOld) {
   connect();
   run(500 * kMs);
   awake_ = false;
-  using HeadMode = triangulation::HeadCommand::Mode;
+  using HeadMode = motion::HeadCommand::Mode;
   host_.command({HeadMode::kPosition, 0.7, 0.0}, moment());
   run(1200 * kMs);
   awake_ = true;

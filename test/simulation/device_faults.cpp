@@ -102,7 +102,7 @@ TEST(ActiveSensorDevice, MeasuresItsWorldAndTurnsWithinItsLimits) {
   world::World world;
   world.add(wall);
   ActiveSensorDevice device(profile, world, Eigen::Isometry3d::Identity(), 1);
-  using HeadMode = triangulation::HeadCommand::Mode;
+  using HeadMode = motion::HeadCommand::Mode;
   EXPECT_TRUE(device.command({HeadMode::kPosition, 0.3, 0.0}));
   EXPECT_FALSE(device.command({HeadMode::kPosition, 3.0, 0.0}));
   const auto scans = device.advance(1'000'000'000);

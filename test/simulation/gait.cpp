@@ -118,9 +118,9 @@ TEST(BodyWorn, LeaningForwardTheBeamAheadMeetsTheFloor) {
   for (const double bearing : {-60.0, 0.0, 30.0}) {
     const auto beam = static_cast<std::size_t>(std::lround(2.0 * bearing)) + 180;
     const double expected = 1.2 / (std::sin(radians(10.0)) * std::cos(radians(bearing)));
-    EXPECT_NEAR(scan.ranges[beam], expected, 1e-3) << bearing;
+    EXPECT_NEAR(scan.ranges()[beam], expected, 1e-3) << bearing;
   }
-  EXPECT_NEAR(scan.ranges[180], 6.91, 0.01);
+  EXPECT_NEAR(scan.ranges()[180], 6.91, 0.01);
 }
 
 // Every return of a walk over an endless floor below an endless ceiling tells the attitude.
@@ -138,7 +138,7 @@ TEST(BodyWorn, TheAttitudeIsTheOneThatTheScansShow) {
       const double pitch = motion.attitude.pitch;
       if (std::abs(pitch) < 0.06) continue;  // beyond the scanner's reach
       const double room = pitch > 0.0 ? 1.2 + motion.bob : 1.4 - motion.bob;
-      EXPECT_NEAR(sweep.scan.ranges[180], room / std::abs(std::sin(pitch)), 0.02);
+      EXPECT_NEAR(sweep.scan.ranges()[180], room / std::abs(std::sin(pitch)), 0.02);
       steepest = std::max(steepest, std::abs(pitch));
     }
   }

@@ -21,8 +21,8 @@ class RampDevice : public driver::DeviceModel {
     return scans;
   }
 
-  bool command(const triangulation::HeadCommand& command) override {
-    if (!triangulation::HeadLimits{}.fault(command).empty()) return false;
+  bool command(const motion::HeadCommand& command) override {
+    if (!motion::HeadLimits{}.fault(command).empty()) return false;
     angle_ = command.position;
     return true;
   }

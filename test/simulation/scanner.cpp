@@ -67,10 +67,10 @@ TEST(Scanner, MeasuresTheWallFromAMountedSensor) {
   const double distance = 4.0 - 1.0 - 0.3 * std::cos(radians(20));
   for (const double bearing : {-60.0, 0.0, 30.0}) {
     const auto beam = static_cast<std::size_t>(std::lround(bearing) + 90);
-    EXPECT_NEAR(scan.ranges[beam], distance / std::cos(radians(bearing + 20.0)), 1e-4);
+    EXPECT_NEAR(scan.ranges()[beam], distance / std::cos(radians(bearing + 20.0)), 1e-4);
   }
-  EXPECT_EQ(scan.kinds.back(), scan::ReturnKind::kNothing) << "that beam goes along the wall";
-  EXPECT_NEAR(scan.range_variances[90], 1e-12, 1e-15);
+  EXPECT_EQ(scan.kinds().back(), scan::ReturnKind::kNothing) << "that beam goes along the wall";
+  EXPECT_NEAR(scan.rangeVariances()[90], 1e-12, 1e-15);
 }
 
 TEST(Scanner, TakesEachBeamAtItsOwnTime) {
@@ -93,7 +93,7 @@ TEST(Scanner, TakesEachBeamAtItsOwnTime) {
   EXPECT_EQ(scan.stamp, stamp);
   const Pose2 T_base_sensor(mounting.x, mounting.y, mounting.yaw);
   const Pose2 T_start_end = Pose2::exp(profile.sweepDuration() * velocity);
-  scan.sensor_motion = motion::sweepMotion(*scan.geometry, T_start_end, T_base_sensor);
+  scan.setSensorMotion(motion::sweepMotion(*scan.geometry(), T_start_end, T_base_sensor));
   int seen = 0;
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i)) continue;
@@ -107,7 +107,7 @@ TEST(Scanner, SortsReturnsAsRep117Asks) {
   const auto kindAt = [](double distance) {
     Scanner scanner(exactProfile(), {}, 1);
     const scan::Scan scan = scanner.sweep(wallAhead(distance), 0, standing());
-    return std::make_pair(scan.kinds[90], scan.ranges[90]);
+    return std::make_pair(scan.kinds()[90], scan.ranges()[90]);
   };
   EXPECT_EQ(kindAt(0.05).first, scan::ReturnKind::kTooNear);
   EXPECT_EQ(kindAt(0.05).second, -std::numeric_limits<double>::infinity());
@@ -120,7 +120,8 @@ TEST(Scanner, LosesTheAskedShareOfItsBeams) {
   profile.dropout = 0.05;
   Scanner scanner(profile, {}, 4);
   const scan::Scan scan = scanner.sweep(wallAhead(5.0), 0, standing());
-  const auto lost = std::count(scan.kinds.begin(), scan.kinds.end(), scan::ReturnKind::kInvalid);
+  const auto lost =
+      std::count(scan.kinds().begin(), scan.kinds().end(), scan::ReturnKind::kInvalid);
   EXPECT_NEAR(static_cast<double>(lost) / 40001.0, 0.05, 0.004);
 }
 
@@ -131,7 +132,7 @@ TEST(ScannerNoise, ConstantAndProportionalAreGaussianAlongTheBeam) {
     noise.kind = growth > 0.0 ? scan::NoiseKind::kProportional : scan::NoiseKind::kConstant;
     noise.sigma_per_metre = growth;
     Scanner scanner(fan(noise), {}, 2);
-    const auto statistics = of(scanner.sweep(wallAhead(5.0), 0, standing()).ranges);
+    const auto statistics = of(scanner.sweep(wallAhead(5.0), 0, standing()).ranges());
     const double expected = noise.rangeVariance(5.0);
     EXPECT_NEAR(statistics.mean, 5.0, 5e-4);
     EXPECT_NEAR(statistics.variance, expected, 0.03 * expected);
@@ -150,10 +151,10 @@ TEST(ScannerNoise, UniformRoundsToStepsAndSpreadsInAngle) {
   const scan::Scan scan = scanner.sweep(wallAhead(5.0), 0, standing());
   std::vector<double> across, along;
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    const double steps = scan.ranges[i] / 0.05;
+    const double steps = scan.ranges()[i] / 0.05;
     ASSERT_NEAR(steps, std::round(steps), 1e-9);
-    const double angle = scan.geometry->angles()[i];
-    along.push_back((scan.ranges[i] - 5.0 / std::cos(angle)));
+    const double angle = scan.geometry()->angles()[i];
+    along.push_back((scan.ranges()[i] - 5.0 / std::cos(angle)));
     if (std::abs(angle) > radians(50.0)) across.push_back(along.back());
   }
   EXPECT_NEAR(of(along).mean, 0.0, 2e-3);
@@ -191,9 +192,9 @@ TEST(ScannerNoise, IntensityDrivenGrowsAsTheLightFades) {
   for (const double reflectivity : {0.9, 0.2}) {
     Scanner scanner(profile, {}, 6);
     const scan::Scan scan = scanner.sweep(wallAhead(10.0, reflectivity), 0, standing());
-    EXPECT_NEAR(scan.intensities[20000], 500.0 * reflectivity, 1.0);
+    EXPECT_NEAR(scan.intensities()[20000], 500.0 * reflectivity, 1.0);
     const double expected = noise.rangeVariance(10.0, 500.0 * reflectivity);
-    EXPECT_NEAR(of(scan.ranges).variance, expected, 0.03 * expected);
+    EXPECT_NEAR(of(scan.ranges()).variance, expected, 0.03 * expected);
   }
 }
 
@@ -203,7 +204,7 @@ TEST(ScannerNoise, ReportedRangesAreMultiplesOfTheResolution) {
   Scanner scanner(profile, {}, 7);
   const scan::Scan scan = scanner.sweep(wallAhead(3.0), 0, standing());
   for (std::size_t i = 10; i < 170; ++i) {
-    EXPECT_NEAR(scan.ranges[i] / 0.01, std::round(scan.ranges[i] / 0.01), 1e-6);
+    EXPECT_NEAR(scan.ranges()[i] / 0.01, std::round(scan.ranges()[i] / 0.01), 1e-6);
   }
 }
 
@@ -212,7 +213,7 @@ TEST(ScannerIntensity, FallsWithRangeAndIncidenceAndRisesWithReflectivity) {
   profile.intensity = 1000.0;
   const auto intensities = [&](double distance, double reflectivity) {
     Scanner scanner(profile, {}, 8);
-    return scanner.sweep(wallAhead(distance, reflectivity), 0, standing()).intensities;
+    return scanner.sweep(wallAhead(distance, reflectivity), 0, standing()).intensities();
   };
   EXPECT_NEAR(intensities(10.0, 0.5)[90], 250.0, 0.1) << "half at the half range";
   EXPECT_NEAR(intensities(1.0, 0.5)[90], 1000.0 * 0.5 / 1.01, 0.1);
@@ -230,8 +231,8 @@ TEST(ScannerMounting, LookingDownMeetsTheFloor) {
   mounting.pitch = radians(10.0);
   Scanner scanner(exactProfile(), mounting, 1);
   const scan::Scan scan = scanner.sweep(world, 0, standing());
-  EXPECT_NEAR(scan.ranges[90], 6.91, 0.005);
-  EXPECT_NEAR(scan.ranges[120], 1.2 / (std::sin(radians(10.0)) * std::cos(radians(30.0))), 1e-4);
+  EXPECT_NEAR(scan.ranges()[90], 6.91, 0.005);
+  EXPECT_NEAR(scan.ranges()[120], 1.2 / (std::sin(radians(10.0)) * std::cos(radians(30.0))), 1e-4);
 }
 
 TEST(ScannerMounting, UpsideDownScansTheOtherWayRound) {
@@ -244,15 +245,16 @@ TEST(ScannerMounting, UpsideDownScansTheOtherWayRound) {
   Scanner overhead(exactProfile(), mounting, 1);
   const scan::Scan left = upright.sweep(world, 0, standing());
   const scan::Scan right = overhead.sweep(world, 0, standing());
-  for (std::size_t i = 20; i < 161; ++i) EXPECT_NEAR(left.ranges[i], right.ranges[180 - i], 1e-4);
-  EXPECT_NEAR(left.ranges[160], 2.0 / std::sin(radians(70.0)), 1e-4);
+  for (std::size_t i = 20; i < 161; ++i)
+    EXPECT_NEAR(left.ranges()[i], right.ranges()[180 - i], 1e-4);
+  EXPECT_NEAR(left.ranges()[160], 2.0 / std::sin(radians(70.0)), 1e-4);
 }
 
 TEST(Scanner, SameSeedSameScanToTheBit) {
   const auto ranges = [](std::uint64_t seed) {
     Scanner scanner(ScannerProfile{}, {}, seed);
     scanner.sweep(wallAhead(5.0), 0, standing());
-    return scanner.sweep(wallAhead(5.0), 1'000'000, standing()).ranges;
+    return scanner.sweep(wallAhead(5.0), 1'000'000, standing()).ranges();
   };
   EXPECT_EQ(ranges(1), ranges(1));
   EXPECT_NE(ranges(1), ranges(2));

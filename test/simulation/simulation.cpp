@@ -134,7 +134,7 @@ TEST(Simulation, SameSeedSameRunWhateverElseIsMounted) {
     while (simulation.time() < 500'000'000) {
       for (const FinishedSweep& sweep : simulation.step()) {
         if (sweep.scanner == 0)
-          all.insert(all.end(), sweep.scan.ranges.begin(), sweep.scan.ranges.end());
+          all.insert(all.end(), sweep.scan.ranges().begin(), sweep.scan.ranges().end());
       }
     }
     const auto odometry = simulation.robot().odometry().pose().mean.coordinates();
@@ -153,7 +153,7 @@ TEST(Simulation, ScannersDoNotShareTheirNoise) {
   while (scans.size() < 2) {
     for (auto& sweep : simulation.step()) scans.push_back(std::move(sweep.scan));
   }
-  EXPECT_NE(scans[0].ranges, scans[1].ranges);
+  EXPECT_NE(scans[0].ranges(), scans[1].ranges());
 }
 
 TEST(Path, TourOfTheFloorKeepsClearOfEverythingAndEndsInTheLabWithinAMinute) {

@@ -44,7 +44,7 @@ class OfflineTest : public testing::Test {
     return topics;
   }
 
-  static geometry::Pose2 robotAt(const logs::TimedPose& timed) {
+  static geometry::Pose2 robotAt(const geometry::StampedPose2& timed) {
     return test::carmenRobotAt(1e-9 * static_cast<double>(timed.stamp) - 100.0);
   }
 
@@ -59,7 +59,7 @@ TEST_F(OfflineTest, TracksTheRobotInTheRoom) {
   const auto trajectory = logs::readTrajectory(folder_.path("out/rooms.tum"));
   ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kScans));
   logs::Trajectory truth;
-  for (const logs::TimedPose& timed : trajectory) {
+  for (const geometry::StampedPose2& timed : trajectory) {
     truth.push_back(
         {timed.stamp, test::carmenRobotAt(1e-9 * static_cast<double>(timed.stamp) - 100.0)});
   }
@@ -106,7 +106,7 @@ TEST_F(OfflineTest, FollowsTheRobotByItsScansAlone) {
   const auto trajectory = logs::readTrajectory(folder_.path("out/odometry.tum"));
   ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kScans));
   const geometry::Pose2 T_map_odom = robotAt(trajectory.front());
-  for (const logs::TimedPose& timed : trajectory) {
+  for (const geometry::StampedPose2& timed : trajectory) {
     const geometry::Pose2 error = geometry::between(robotAt(timed), T_map_odom * timed.pose);
     EXPECT_LT(error.translation().norm(), 0.03);
     EXPECT_LT(std::abs(error.theta()), 0.01);

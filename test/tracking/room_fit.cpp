@@ -1,4 +1,5 @@
 #include "sightline/tracking/room_fit.h"
+#include "scan_edits.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +35,9 @@ TEST(RoomFit, FurnitureSaysNothingAgainstAPose) {
   test::SimulatedRooms rooms(kRoom);
   const Pose2 pose(0.5, 0.3, 0.4);
   scan::Scan scan = rooms.look(pose, 1);
-  for (std::size_t i = 0; i < scan.beams(); i += 2) scan.ranges[i] *= 0.5;
+  for (std::size_t i = 0; i < scan.beams(); i += 2) {
+    scan.setRange(i, 0.5 * scan.ranges()[i]);
+  }
   const RoomFit fit = fitToRoom(scan, pose, rooms.map.rooms()[0], 0.1);
   EXPECT_GT(fit.occluded, 100U);
   EXPECT_DOUBLE_EQ(fit.quality(), 1.0);
@@ -44,7 +47,7 @@ TEST(RoomFit, NothingSeenWhereAWallIsInReachSpeaksAgainstThePose) {
   test::SimulatedRooms rooms(kRoom);
   const Pose2 pose(0.5, 0.3, 0.4);
   scan::Scan scan = rooms.look(pose, 1);
-  for (auto& kind : scan.kinds) kind = scan::ReturnKind::kNothing;
+  test::setKinds(scan, scan::ReturnKind::kNothing);
   const RoomFit fit = fitToRoom(scan, pose, rooms.map.rooms()[0], 0.1);
   EXPECT_EQ(fit.on_wall, 0U);
   EXPECT_GT(fit.beyond, 300U);
@@ -53,7 +56,7 @@ TEST(RoomFit, NothingSeenWhereAWallIsInReachSpeaksAgainstThePose) {
 TEST(RoomFit, NoWallInSightIsQualityZeroWithoutEvidence) {
   test::SimulatedRooms rooms(kRoom);
   scan::Scan scan = rooms.look({0.5, 0.3, 0.4}, 1);
-  for (auto& kind : scan.kinds) kind = scan::ReturnKind::kInvalid;
+  test::setKinds(scan, scan::ReturnKind::kInvalid);
   const RoomFit fit = fitToRoom(scan, {}, rooms.map.rooms()[0], 0.1);
   EXPECT_EQ(fit.on_wall + fit.beyond + fit.occluded, 0U);
   EXPECT_EQ(fit.quality(), 0.0);

@@ -1,4 +1,5 @@
 #include "sightline/tracking/room_tracker.h"
+#include "scan_edits.h"
 
 #include <cmath>
 #include <limits>
@@ -150,7 +151,8 @@ TEST_F(RoomTrackerTest, SurvivesASlipOfTheWheels) {
 TEST_F(RoomTrackerTest, SaysThatItIsLost) {
   RoomTracker tracker = trackerAt({0.5, 0.4, 0.3});
   scan::Scan scan = rooms_.look({0.5, 0.4, 0.3}, 1);
-  for (double& range : scan.ranges) range = 9.0;  // far beyond any wall of the room
+  for (std::size_t i = 0; i < scan.beams(); ++i)
+    scan.setRange(i, 9.0);  // far beyond any wall of the room
   std::optional<TrackerUpdate> update;
   for (int i = 0; i < 12; ++i) {
     scan.stamp += 100'000'000;
@@ -166,7 +168,7 @@ TEST_F(RoomTrackerTest, DoesNotWalkThroughWalls) {
   // of the west room, and is called lost once it has left that for good.
   RoomTracker tracker = trackerAt({2.0, 1.6, 0.0});
   scan::Scan blind = rooms_.look({2.0, 1.6, 0.0}, 1);
-  for (auto& kind : blind.kinds) kind = scan::ReturnKind::kInvalid;
+  test::setKinds(blind, scan::ReturnKind::kInvalid);
   Pose2 odometry;
   std::optional<TrackerUpdate> update;
   for (int i = 0; i < 40; ++i) {
@@ -181,7 +183,7 @@ TEST_F(RoomTrackerTest, DoesNotWalkThroughWalls) {
 TEST_F(RoomTrackerTest, BlindDrivingIsDegradedNotLost) {
   RoomTracker tracker = trackerAt({0.5, 0.4, 0.3});
   scan::Scan scan = rooms_.look({0.5, 0.4, 0.3}, 1);
-  for (auto& kind : scan.kinds) kind = scan::ReturnKind::kInvalid;
+  test::setKinds(scan, scan::ReturnKind::kInvalid);
   Pose2 odometry;
   std::optional<TrackerUpdate> update;
   for (int i = 0; i < 200; ++i) {

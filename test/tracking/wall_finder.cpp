@@ -100,7 +100,7 @@ TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
       });
   const auto fitWith = [&](const Eigen::Vector3d& motion) {
     scan::Scan scan = still;
-    scan.sensor_motion = motion::sweepMotion(*scan.geometry, Pose2(motion), {});
+    scan.setSensorMotion(motion::sweepMotion(*scan.geometry(), Pose2(motion), {}));
     return WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls,
                                    readSweep(scan, {}, config.odometry));
   };

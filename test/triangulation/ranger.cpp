@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "monte_carlo.h"
-#include "sightline/triangulation/head_command.h"
+#include "sightline/motion/head_command.h"
 #include "sightline/triangulation/projection_geometry.h"
 
 namespace sightline::triangulation {
@@ -107,7 +107,7 @@ TEST(Ranger, VarianceInAScanIsThatOfTheRange) {
       exact = photocurrentsAt(imagePosition(exact, 0.01) + gauss(sigma), current, 0.01);
     }
     const scan::Scan scan = ranger.range(raw).scan;
-    moments.add({scan.ranges[128], scan.range_variances[128]});
+    moments.add({scan.ranges()[128], scan.rangeVariances()[128]});
   }
   const Eigen::Matrix2d covariance = moments.covariance();
   EXPECT_NEAR(moments.mean()[1] / covariance(0, 0), 1.0, 0.06);
@@ -130,14 +130,14 @@ TEST(Ranger, SortsWhatIsOutsideByRep117) {
 
 TEST(Ranger, MakesAScanOfWhatTheSensorDelivers) {
   const Ranger ranger(calibration());
-  const RangeScan result = ranger.range(rawScan(ranger, 1.0, 25e-9));
+  const motion::RangeScan result = ranger.range(rawScan(ranger, 1.0, 25e-9));
   EXPECT_EQ(result.scan.stamp, 12'345);
   EXPECT_EQ(result.scan.beams(), 256u);
-  EXPECT_TRUE(result.scan.sensor_motion.empty());
-  EXPECT_NEAR(result.scan.intensities[7], 25e-9, 1e-15);
-  EXPECT_NEAR(result.scan.geometry->timeOffsets()[10], 0.004, 1e-12);
-  EXPECT_NEAR(result.scan.geometry->angles()[0], geometry::radians(-18.5), 1e-9);
-  EXPECT_NEAR(result.origin.x(), 0.05, 1e-12);
+  EXPECT_TRUE(result.scan.sensorMotion().empty());
+  EXPECT_NEAR(result.scan.intensities()[7], 25e-9, 1e-15);
+  EXPECT_NEAR(result.scan.geometry()->timeOffsets()[10], 0.004, 1e-12);
+  EXPECT_NEAR(result.scan.geometry()->angles()[0], geometry::radians(-18.5), 1e-9);
+  EXPECT_NEAR(result.head.origin.x(), 0.05, 1e-12);
 }
 
 TEST(Ranger, RefusesScansThatDoNotFit) {
@@ -152,40 +152,6 @@ TEST(Ranger, RefusesScansThatDoNotFit) {
   raw = rawScan(ranger, 1.0, 25e-9);
   raw.head_angles[9] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(faultOf(ranger, raw), "a head angle that is not finite");
-}
-
-// Against transforms taken one after the other.
-TEST(HeadMotion, IsTheRigidMotionOfTheProjectionFrame) {
-  const Eigen::Vector2d origin(0.05, -0.03);
-  const std::vector<double> angles{0.3, 0.35, 0.5};
-  const std::vector<geometry::Pose2> mount{{}, {0.1, 0.0, 0.02}, {0.2, 0.01, 0.05}};
-  const auto motion = headMotion(angles, origin, mount);
-  const Eigen::Vector2d fixed(1.7, 0.4);  // in the mount's frame at the first beam
-  const auto seenAt = [&](std::size_t beam) -> Eigen::Vector2d {
-    const Eigen::Vector2d p_mount = mount[beam].inverse() * fixed;
-    const Eigen::Vector2d p_head = geometry::Pose2(0.0, 0.0, angles[beam]).inverse() * p_mount;
-    return p_head - origin;
-  };
-  for (const std::size_t beam : {0, 1, 2}) {
-    EXPECT_TRUE((motion[beam] * seenAt(beam)).isApprox(seenAt(0), 1e-12)) << beam;
-  }
-  EXPECT_TRUE(headMotion({0.3, 0.3}, origin).empty());
-  EXPECT_FALSE(headMotion({0.3, 0.3}, origin, {{}, {}}).empty());
-}
-
-TEST(HeadLimits, NameWhatIsWrongWithACommand) {
-  using Mode = HeadCommand::Mode;
-  const HeadLimits limits;
-  const double nan = std::nan("");
-  EXPECT_EQ(limits.fault({Mode::kPosition, 1.5, 0.0}), "");
-  EXPECT_EQ(limits.fault({Mode::kRate, nan, -4.0}), "");
-  EXPECT_EQ(limits.fault({Mode::kStop, nan, nan}), "");
-  EXPECT_EQ(limits.fault({Mode::kPosition, nan, 0.0}), "a position that is not finite");
-  EXPECT_EQ(limits.fault({Mode::kPosition, -1.6, 0.0}),
-            "a position of -1.6000 rad, beyond the limits [-1.5708, 1.5708]");
-  EXPECT_EQ(limits.fault({Mode::kRate, 0.0, nan}), "a rate that is not finite");
-  EXPECT_EQ(limits.fault({Mode::kRate, 0.0, 5.0}),
-            "a rate of 5.0000 rad/s, beyond the limit 4.5000");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <sightline/HeadCommand.h>
 #include "sightline/bridge/input_monitor.h"
 #include "sightline/config/fields.h"
-#include "sightline/triangulation/head_command.h"
+#include "sightline/motion/head_command.h"
 #include "sightline/triangulation/ranger.h"
 
 namespace sightline::bridge {
@@ -32,16 +32,16 @@ struct ActiveSensorNames {
 /// The topics of an active sensor, be it real or simulated.
 class ActiveSensorTopics {
  public:
-  using OnHeadCommand = std::function<void(const triangulation::HeadCommand&)>;
+  using OnHeadCommand = std::function<void(const motion::HeadCommand&)>;
 
   /// Head commands that the limits allow are handed on; the others are dropped with their reason,
   /// which the updater shows. The updater has to live as long.
   ActiveSensorTopics(ros::NodeHandle node, const ActiveSensorNames& names,
-                     const triangulation::HeadLimits& limits, diagnostic_updater::Updater& updater,
+                     const motion::HeadLimits& limits, diagnostic_updater::Updater& updater,
                      OnHeadCommand on_command);
 
   /// Publishes the range scan and the scan, both with the stamp that it carries [ns].
-  void publish(triangulation::RangeScan& range_scan) const;
+  void publish(motion::RangeScan& range_scan) const;
   /// Publishes the head's position [rad] and rate [rad/s] at a time [ns].
   void publishJoint(std::int64_t stamp, double position, double rate) const;
 
@@ -51,7 +51,7 @@ class ActiveSensorTopics {
   void onHeadCommand(const HeadCommand& message);
 
   ActiveSensorNames names_;
-  triangulation::HeadLimits limits_;
+  motion::HeadLimits limits_;
   InputMonitor monitor_;
   OnHeadCommand on_command_;
   ros::Publisher range_scan_publisher_;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <sightline/HeadCommand.h>
-#include "sightline/triangulation/head_command.h"
+#include "sightline/motion/head_command.h"
 
 namespace sightline::bridge {
 
@@ -15,7 +15,7 @@ class InvalidHeadCommand : public std::runtime_error {
 
 /// Throws InvalidHeadCommand: for another joint than `joint`, of an unknown mode, not finite or
 /// beyond the limits.
-triangulation::HeadCommand fromMessage(const HeadCommand& message, const std::string& joint,
-                                       const triangulation::HeadLimits& limits);
+motion::HeadCommand fromMessage(const HeadCommand& message, const std::string& joint,
+                                const motion::HeadLimits& limits);
 
 }  // namespace sightline::bridge

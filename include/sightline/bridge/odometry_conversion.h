@@ -6,14 +6,9 @@
 #include <nav_msgs/Odometry.h>
 
 #include "sightline/geometry/pose2.h"
+#include "sightline/geometry/twist2.h"
 
 namespace sightline::bridge {
-
-/// Velocity in the body frame: forward, to the left, counter-clockwise [m/s, m/s, rad/s].
-struct UncertainTwist2 {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
 
 /// Where and when an odometry message holds.
 struct OdometryHeader {
@@ -24,6 +19,6 @@ struct OdometryHeader {
 
 nav_msgs::Odometry toOdometryMessage(const OdometryHeader& header,
                                      const geometry::UncertainPose2& pose,
-                                     const UncertainTwist2& twist);
+                                     const geometry::UncertainTwist2& twist);
 
 }  // namespace sightline::bridge

@@ -8,7 +8,7 @@
 
 namespace sightline::bridge {
 
-RangeScan toMessage(const triangulation::RangeScan& range_scan);
+RangeScan toMessage(const motion::RangeScan& range_scan);
 
 /// What a consumer that knows no other message gets of it: intensities are the currents in nA. The
 /// frame is that of the first beam, and no beam tells how the head went on turning: who needs that
@@ -21,7 +21,7 @@ class RangeScanReader {
   /// Throws scan::InvalidScan with the reason: whatever ScanReader finds, a number of variances,
   /// currents or head angles that is not that of the ranges, a variance of a valid range that is
   /// not positive and finite, an origin or a head angle that is not finite.
-  triangulation::RangeScan read(const RangeScan& message);
+  motion::RangeScan read(const RangeScan& message);
 
  private:
   ScanReader reader_;

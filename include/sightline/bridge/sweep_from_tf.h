@@ -23,7 +23,7 @@ class SweepFromTf {
   bool addMotion(scan::Scan& scan) const;
   /// As above, of a sensor whose head turns on something that moves: how the head turned is known
   /// from the scan, which may have accelerated.
-  bool addMotion(triangulation::RangeScan& range_scan) const;
+  bool addMotion(motion::RangeScan& range_scan) const;
 
  private:
   std::string fixed_frame_;

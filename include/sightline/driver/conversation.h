@@ -60,7 +60,7 @@ class Conversation {
   /// What ends it.
   const std::vector<std::uint8_t>& stop(const Moment& now);
   /// Given up unless the device acknowledges within a second.
-  void command(const triangulation::HeadCommand& command, const Moment& now);
+  void command(const motion::HeadCommand& command, const Moment& now);
 
   /// Since the last scan; also where the device cannot be used.
   const Trouble& currentTrouble() const { return trouble_; }

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sightline/triangulation/head_command.h"
+#include "sightline/motion/head_command.h"
 #include "sightline/triangulation/ranger.h"
 
 namespace sightline::driver {
@@ -17,7 +17,7 @@ class DeviceModel {
   /// call, stamped with the time of their first sample.
   virtual std::vector<triangulation::RawScan> advance(std::int64_t time) = 0;
   /// False where the command is beyond the limits of the head and nothing is done.
-  virtual bool command(const triangulation::HeadCommand& command) = 0;
+  virtual bool command(const motion::HeadCommand& command) = 0;
 };
 
 }  // namespace sightline::driver

@@ -51,7 +51,7 @@ class DeviceSession {
   DeviceSession(const DeviceSession&) = delete;
   DeviceSession& operator=(const DeviceSession&) = delete;
 
-  void command(const triangulation::HeadCommand& command);
+  void command(const motion::HeadCommand& command);
   SessionStatus status() const;
 
  private:

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "sightline/triangulation/head_command.h"
+#include "sightline/motion/head_command.h"
 
 namespace sightline::driver {
 
@@ -19,7 +19,7 @@ struct HeadFrames {
 /// What a robot description says of them.
 struct HeadJoint {
   /// Lower and upper end, and the largest rate; the rest is as for any servo of this sensor.
-  triangulation::HeadLimits limits;
+  motion::HeadLimits limits;
   /// Of the projection frame in the head's [m].
   Eigen::Vector2d scan_origin = Eigen::Vector2d::Zero();
 

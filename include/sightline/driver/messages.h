@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sightline/driver/frame.h"
-#include "sightline/triangulation/head_command.h"
+#include "sightline/motion/head_command.h"
 
 /// The payloads of frames (docs/wire_format.md). write() appends one; read() takes one and says
 /// whether its values make sense.
@@ -32,7 +32,7 @@ struct Stop {
 /// Where the head shall turn. Angles travel in whole microradians.
 struct HeadTarget {
   static constexpr FrameKind kKind = FrameKind::kHeadTarget;
-  triangulation::HeadCommand command;
+  motion::HeadCommand command;
 
   void write(ByteWriter& writer) const;
   bool read(ByteReader& reader);

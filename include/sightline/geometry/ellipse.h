@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "sightline/geometry/statistics.h"
+
 namespace sightline::geometry {
 
 /// Half axes [m] and the direction of the longer one [rad] of the curve (p−μ)ᵀ C⁻¹ (p−μ) = scale².
@@ -11,10 +13,6 @@ struct Ellipse {
   double angle = 0.0;
 };
 
-/// 95 % of a Gaussian in the plane lie within this many standard deviations: sqrt of the χ²
-/// quantile, 2 d.o.f.
-constexpr double kScale95 = 2.4477468306808161;
-
-Ellipse covarianceEllipse(const Eigen::Matrix2d& covariance, double scale = kScale95);
+Ellipse covarianceEllipse(const Eigen::Matrix2d& covariance, double scale = kPlane95);
 
 }  // namespace sightline::geometry

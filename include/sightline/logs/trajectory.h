@@ -5,18 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "sightline/geometry/pose2.h"
+#include "sightline/geometry/stamped_pose2.h"
 
 namespace sightline::logs {
 
-/// Where something was at a time.
-struct TimedPose {
-  std::int64_t stamp = 0;  ///< [ns]
-  geometry::Pose2 pose;
-};
-
 /// In the order of the stamps.
-using Trajectory = std::vector<TimedPose>;
+using Trajectory = std::vector<geometry::StampedPose2>;
 
 /// Reads a trajectory in the TUM format, `t x y z qx qy qz qw` a line (of which height and tilt are
 /// left out), or the same with `t x y theta`; metres, radians, `#` starts a comment. Throws

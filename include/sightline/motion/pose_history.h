@@ -4,14 +4,9 @@
 #include <deque>
 #include <optional>
 
-#include "sightline/geometry/pose2.h"
+#include "sightline/geometry/stamped_pose2.h"
 
 namespace sightline::motion {
-
-struct StampedPose2 {
-  std::int64_t stamp = 0;  ///< nanoseconds
-  geometry::Pose2 pose;
-};
 
 /// Poses in the order of their stamps, read at any time between them by constant body velocity.
 class PoseHistory {
@@ -32,7 +27,7 @@ class PoseHistory {
 
  private:
   std::int64_t length_;
-  std::deque<StampedPose2> poses_;
+  std::deque<geometry::StampedPose2> poses_;
 };
 
 }  // namespace sightline::motion

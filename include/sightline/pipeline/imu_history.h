@@ -30,6 +30,7 @@ class ImuHistory {
 
  private:
   struct Sample {
+    std::int64_t stamp = 0;
     ImuReading reading;
     double heading = 0.0;  // since the history began [rad]
   };

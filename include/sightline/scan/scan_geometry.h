@@ -30,6 +30,9 @@ class ScanGeometry {
                                                      std::size_t beams, double time_increment,
                                                      double range_min, double range_max);
 
+  /// That of the same sensor upside down: every angle negated.
+  std::shared_ptr<const ScanGeometry> mirrored() const;
+
   std::size_t beams() const { return angles_.size(); }
   const std::vector<double>& angles() const { return angles_; }
   const std::vector<double>& cosines() const { return cosines_; }

@@ -6,10 +6,10 @@
 
 #include <Eigen/Geometry>
 
+#include "sightline/motion/sensor_head.h"
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/detector.h"
 #include "sightline/simulation/optical_head.h"
-#include "sightline/simulation/sensor_head.h"
 #include "sightline/triangulation/ranger.h"
 #include "sightline/world/world.h"
 
@@ -27,14 +27,14 @@ class ActiveSensor {
   /// Samples from time 0 on. Throws config::Error.
   ActiveSensor(const ActiveSensorProfile& profile, std::uint64_t seed);
 
-  void command(const triangulation::HeadCommand& command) { head_.command(command); }
+  void command(const motion::HeadCommand& command) { head_.command(command); }
 
   /// Takes all samples up to `time` [ns], and returns the scans that were completed, stamped with
   /// the time of their first sample.
   std::vector<triangulation::RawScan> advance(const world::World& world, std::int64_t time,
                                               const MountPoseAt& T_map_mount);
 
-  const SensorHead& head() const { return head_; }
+  const motion::SensorHead& head() const { return head_; }
   const ActiveSensorProfile& profile() const { return profile_; }
   /// Of the next sample [ns].
   std::int64_t nextSample() const { return timeOf(samples_); }
@@ -47,7 +47,7 @@ class ActiveSensor {
   ActiveSensorProfile profile_;
   OpticalHead optics_;
   Detector detector_;
-  SensorHead head_;
+  motion::SensorHead head_;
   std::vector<double> angles_;  // of the beams, in the projection frame [rad]
   std::int64_t samples_ = 0;    // so far
   triangulation::RawScan scan_;

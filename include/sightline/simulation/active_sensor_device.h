@@ -24,7 +24,7 @@ class ActiveSensorDevice : public driver::DeviceModel {
       : sensor_(profile, seed), world_(std::move(world)), T_map_mount_(T_map_mount) {}
 
   std::vector<triangulation::RawScan> advance(std::int64_t time) override;
-  bool command(const triangulation::HeadCommand& command) override;
+  bool command(const motion::HeadCommand& command) override;
 
  private:
   ActiveSensor sensor_;

@@ -4,10 +4,10 @@
 
 #include "sightline/config/fields.h"
 #include "sightline/driver/head_joint.h"
+#include "sightline/motion/head_command.h"
 #include "sightline/simulation/calibration_rig.h"
 #include "sightline/simulation/optical_head.h"
 #include "sightline/triangulation/calibration.h"
-#include "sightline/triangulation/head_command.h"
 
 namespace sightline::simulation {
 
@@ -15,7 +15,7 @@ namespace sightline::simulation {
 /// real one, and of the light in it for a simulated one. Files of it are in config/sensors.
 struct ActiveSensorProfile {
   triangulation::SensorParameters sensor;
-  triangulation::HeadLimits head;
+  motion::HeadLimits head;
   Optics optics;
   double bandwidth = 0.0;   ///< of the detector [Hz]; 0: none (pears eq. 2 has none)
   RigConfig rig;            ///< for calibrate_sensor

@@ -54,8 +54,12 @@ class Scanner {
                           const PoseInSpaceAt& T_map_base);
 
  private:
-  void measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_base, std::size_t beam,
-                   scan::Scan& scan);
+  struct Echo {
+    double range;      // [m]
+    double intensity;  // 0 where nothing was measured
+  };
+  Echo measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_base,
+                   std::size_t beam);
   std::optional<world::Hit> look(const world::World& world, const Eigen::Isometry3d& T_map_sensor,
                                  double angle) const;
   std::optional<world::Hit> lookNoisily(const world::World& world,

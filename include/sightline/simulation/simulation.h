@@ -25,7 +25,7 @@ struct FinishedSweep {
 /// A scan of an active sensor that has just ended.
 struct FinishedRangeScan {
   std::size_t sensor = 0;  ///< in the order in which they were added
-  triangulation::RangeScan range_scan;
+  motion::RangeScan range_scan;
 };
 
 /// A robot with its scanners in a world, in steps of a fixed length. Time is in nanoseconds from
@@ -51,7 +51,7 @@ class Simulation {
   /// What the robot shall do until the next command, or until the time-out.
   void command(const Velocity& velocity);
   /// What the head of an active sensor shall do; one that its limits do not allow is not heard.
-  void commandHead(std::size_t sensor, const triangulation::HeadCommand& command);
+  void commandHead(std::size_t sensor, const motion::HeadCommand& command);
 
   /// Moves on by kStep; the sweeps that ended within it, by scanner and time.
   std::vector<FinishedSweep> step();
@@ -62,7 +62,9 @@ class Simulation {
   std::int64_t time() const { return time_; }
   const Robot& robot() const { return robot_; }
   /// As it was at the last sample, less than a sample ago.
-  const SensorHead& head(std::size_t sensor) const { return active_sensors_[sensor].sensor.head(); }
+  const motion::SensorHead& head(std::size_t sensor) const {
+    return active_sensors_[sensor].sensor.head();
+  }
   const triangulation::Calibration& calibration(std::size_t sensor) const {
     return active_sensors_[sensor].ranger.calibration();
   }

@@ -2,11 +2,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "sightline/motion/range_scan.h"
 #include "sightline/scan/scan.h"
 #include "sightline/triangulation/calibration.h"
 #include "sightline/triangulation/photocurrents.h"
@@ -19,26 +17,6 @@ struct RawScan {
   std::vector<Photocurrents> currents;
   std::vector<double> head_angles;  ///< of the head's joint [rad]
 };
-
-/// A scan whose sensor turned with its head.
-struct RangeScan {
-  /// In the projection frame at the first beam; intensities are the total currents [A], and
-  /// sensor_motion is empty where the head stood still.
-  scan::Scan scan;
-  std::vector<double> head_angles;  ///< [rad], one a beam
-  std::string mount_frame;          ///< in which the head turns, its axes there at an angle of 0
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< of the projection frame in the head's [m]
-};
-
-/// Pose of the projection frame at each beam, in that of the first one, while the head turns about
-/// its axis (pears eqs 15-20 are what this does to a line). Empty where nothing moved.
-///
-/// @param origin         of the projection frame in the head's frame [m]
-/// @param mount_motion   pose at each beam of what the head turns on, in its own frame at the first
-///                       beam; empty where that stood still
-std::vector<geometry::Pose2> headMotion(const std::vector<double>& head_angles,
-                                        const Eigen::Vector2d& origin,
-                                        const std::vector<geometry::Pose2>& mount_motion = {});
 
 /// One measurement.
 struct RangeReading {
@@ -62,7 +40,7 @@ class Ranger {
   /// be believed less than one that errs to the near side, and lines would lie too near. Throws
   /// scan::InvalidScan where the number of currents or of head angles is not that of the
   /// beams, or a head angle is not finite.
-  RangeScan range(const RawScan& raw) const;
+  motion::RangeScan range(const RawScan& raw) const;
 
   const Calibration& calibration() const { return calibration_; }
   const std::shared_ptr<const scan::ScanGeometry>& geometry() const { return geometry_; }

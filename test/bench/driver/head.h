@@ -16,7 +16,7 @@
 #include "bench/figures.h"
 #include "sightline/bridge/time.h"
 #include "sightline/geometry/angle.h"
-#include "sightline/simulation/sensor_head.h"
+#include "sightline/motion/sensor_head.h"
 
 namespace sightline::bench {
 
@@ -57,14 +57,14 @@ class HeadDevice : public driver::DeviceModel {
     }
     return scans;
   }
-  bool command(const triangulation::HeadCommand& command) override {
+  bool command(const motion::HeadCommand& command) override {
     head_.command(command);
     return true;
   }
 
  private:
   std::shared_ptr<HeadTruth> truth_;
-  simulation::SensorHead head_{triangulation::HeadLimits{}};
+  motion::SensorHead head_{motion::HeadLimits{}};
   triangulation::RawScan scan_;
   std::int64_t next_ = 0;
 };

@@ -6,12 +6,13 @@
 
 #include "bench/figures.h"
 #include "sightline/geometry/line_segment.h"
+#include "sightline/geometry/statistics.h"
 #include "view.h"
 
 namespace sightline::bench {
 
 /// 95 % of χ² with two degrees of freedom.
-constexpr double kGate95 = 5.991464547107979;
+constexpr double kGate95 = geometry::kChiSquare95Of2;
 
 struct LineErrors {
   std::vector<double> rho_mm, phi_mrad, end_mm;

@@ -70,20 +70,22 @@ class Viewer {
 
   void takeScan(std::mt19937& random, scan::Scan& scan) {
     const auto n = sensor_.beams;
-    scan.geometry = scan::ScanGeometry::uniform(angleAt(0.0), angleAt(1.0) - angleAt(0.0), n,
-                                                sensor_.sweep_time / steps(), 0.02, 60.0);
-    scan.stamp = 1;
+    const auto geometry = scan::ScanGeometry::uniform(angleAt(0.0), angleAt(1.0) - angleAt(0.0), n,
+                                                      sensor_.sweep_time / steps(), 0.02, 60.0);
+    std::vector<double> ranges;
+    std::vector<geometry::Pose2> motion;
     std::normal_distribution<double> noise(0.0, sensor_.sigma);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (std::size_t i = 0; i < n; ++i) {
       hits_.push_back(hitAt(static_cast<double>(i)));
       double range = hits_.back().range + noise(random);
       if (share(random) < sensor_.invalid_share) range = invalidRange(share(random));
-      scan.ranges.push_back(range);
-      scan.kinds.push_back(scan::classify(range, *scan.geometry));
-      if (sensor_.sweep_time > 0.0) scan.sensor_motion.push_back(motionAt(static_cast<double>(i)));
+      ranges.push_back(range);
+      if (sensor_.sweep_time > 0.0) motion.push_back(motionAt(static_cast<double>(i)));
     }
-    scan.range_variances.assign(n, sensor_.sigma * sensor_.sigma);
+    scan = scan::Scan(geometry, 1, std::move(ranges));
+    scan.setSensorMotion(std::move(motion));
+    scan.setRangeVariances(std::vector<double>(n, sensor_.sigma * sensor_.sigma));
   }
   static double invalidRange(double share) {
     if (share < 1.0 / 3.0) return std::numeric_limits<double>::quiet_NaN();
@@ -188,9 +190,9 @@ class Viewer {
     const auto n = static_cast<long>(sensor_.beams);
     const auto meet = [&](long i) -> Eigen::Vector2d {
       const auto index = static_cast<std::size_t>((i + n) % n);
-      const Eigen::Vector2d origin = scan.sensor_motion.empty()
+      const Eigen::Vector2d origin = scan.sensorMotion().empty()
                                          ? Eigen::Vector2d::Zero()
-                                         : scan.sensor_motion[index].translation();
+                                         : scan.sensorMotion()[index].translation();
       const Eigen::Vector2d direction = scan.direction(index);
       const double range = -line.signedDistance(origin) / line.normal().dot(direction);
       return origin + range * direction;

@@ -133,12 +133,12 @@ class BodyWornWalk {
   }
 
   bool endsOnFloor(const scan::Scan& scan, std::size_t beam) const {
-    const auto time = scan.stamp + std::llround(1e9 * scan.geometry->timeOffsets()[beam]);
+    const auto time = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets()[beam]);
     const Eigen::Isometry3d T_map_sensor = simulation::inSpace(simulation_.T_map_base(time)) *
                                            simulation_.bodyMotion(time).outOfPlane(kHeight) *
                                            Eigen::Translation3d(0.0, 0.0, kHeight);
-    const Eigen::Vector3d direction(scan.geometry->cosines()[beam], scan.geometry->sines()[beam],
-                                    0.0);
+    const Eigen::Vector3d direction(scan.geometry()->cosines()[beam],
+                                    scan.geometry()->sines()[beam], 0.0);
     const auto hit =
         building_.world.cast({T_map_sensor.translation(), T_map_sensor.linear() * direction});
     return hit && !hit->segment;

@@ -53,15 +53,10 @@ class ScanLog {
   scan::Scan scan(std::size_t index) const {
     constexpr double kRangeMax = 80.0;  // m
     const logs::CarmenLaser& laser = log_.scans[index];
-    scan::Scan scan;
-    scan.geometry =
+    scan::Scan scan(
         scan::ScanGeometry::uniform(laser.angle_min, laser.angle_increment, laser.ranges.size(),
-                                    0.0, 0.0, laser.range_max.value_or(kRangeMax));
-    scan.stamp = laser.stamp;
-    for (const float range : laser.ranges) {
-      scan.ranges.push_back(static_cast<double>(range));
-      scan.kinds.push_back(scan::classify(scan.ranges.back(), *scan.geometry));
-    }
+                                    0.0, 0.0, laser.range_max.value_or(kRangeMax)),
+        laser.stamp, {laser.ranges.begin(), laser.ranges.end()});
     scan::applyNoise({}, scan);
     return scan;
   }
@@ -112,12 +107,12 @@ inline double medianConversion(const ScanLog& log) {
   std::vector<double> points;
   for (std::size_t i = 0; i < log.size(); i += 10) {
     const scan::Scan scan = log.scan(i);
-    const std::vector<double>& angles = scan.geometry->angles();
+    const std::vector<double>& angles = scan.geometry()->angles();
     points.assign(2 * scan.beams(), 0.0);
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t k = 0; k < scan.beams(); ++k) {
-      points[2 * k] = scan.ranges[k] * std::cos(angles[k]);
-      points[2 * k + 1] = scan.ranges[k] * std::sin(angles[k]);
+      points[2 * k] = scan.ranges()[k] * std::cos(angles[k]);
+      points[2 * k + 1] = scan.ranges()[k] * std::sin(angles[k]);
     }
     // Or the optimiser would leave the work out.
     asm volatile("" : : "r"(points.data()) : "memory");
@@ -144,7 +139,7 @@ class StepTruth {
       relations_[{milliseconds(relation.first), milliseconds(relation.second)}] =
           T_base_measured * relation.motion * T_base_measured.inverse();
     }
-    for (const logs::TimedPose& pose : trajectory) poses_[pose.stamp] = pose.pose;
+    for (const geometry::StampedPose2& pose : trajectory) poses_[pose.stamp] = pose.pose;
   }
 
   std::optional<geometry::Pose2> step(std::int64_t first, std::int64_t second) const {

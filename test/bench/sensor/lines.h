@@ -51,7 +51,7 @@ inline void lineConsistency(const simulation::ActiveSensorProfile& profile) {
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
       simulation::ActiveSensor sensor(profile, seed);
       if (view.rate != 0.0) {
-        sensor.command({triangulation::HeadCommand::Mode::kRate, 0.0, view.rate});
+        sensor.command({motion::HeadCommand::Mode::kRate, 0.0, view.rate});
       }
       const auto raw =
           sensor.advance(world, two_scans, [&](std::int64_t) { return T_map_mount; }).back();

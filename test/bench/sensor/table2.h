@@ -96,9 +96,9 @@ inline Readings readRepeatedly(const simulation::ActiveSensorProfile& profile, d
     const triangulation::RawScan& raw = spots.measure(detector);
     const scan::Scan scan = ranger.range(raw).scan;
     Eigen::Matrix<double, 5, 1> sample;
-    sample << scan.intensities[beam], triangulation::imagePosition(raw.currents[beam], length),
-        scan.ranges[beam] * scan.geometry->cosines()[beam], scan.ranges[beam],
-        scan.range_variances[beam];
+    sample << scan.intensities()[beam], triangulation::imagePosition(raw.currents[beam], length),
+        scan.ranges()[beam] * scan.geometry()->cosines()[beam], scan.ranges()[beam],
+        scan.rangeVariances()[beam];
     moments.add(sample);
   }
   const Eigen::Matrix<double, 5, 1> variances = moments.covariance().diagonal();

@@ -1,27 +1,27 @@
-#include "sightline/simulation/sensor_head.h"
+#include "sightline/motion/sensor_head.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace sightline::simulation {
+namespace sightline::motion {
 
 namespace {
 
-using Mode = triangulation::HeadCommand::Mode;
+using Mode = HeadCommand::Mode;
 
-const triangulation::HeadLimits& checkedLimits(const triangulation::HeadLimits& limits) {
+const HeadLimits& checkedLimits(const HeadLimits& limits) {
   limits.check("");
   return limits;
 }
 
 }  // namespace
 
-SensorHead::SensorHead(const triangulation::HeadLimits& limits)
+SensorHead::SensorHead(const HeadLimits& limits)
     : limits_(checkedLimits(limits)),
       command_{Mode::kPosition, limits.rounded(0.0), 0.0},
       angle_(command_.position) {}
 
-void SensorHead::command(const triangulation::HeadCommand& command) {
+void SensorHead::command(const HeadCommand& command) {
   if (!limits_.fault(command).empty()) return;
   command_ = command;
   command_.position = limits_.rounded(command.position);
@@ -62,4 +62,4 @@ void SensorHead::step(double duration) {
   }
 }
 
-}  // namespace sightline::simulation
+}  // namespace sightline::motion

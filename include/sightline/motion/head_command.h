@@ -5,7 +5,7 @@
 #include "sightline/config/fields.h"
 #include "sightline/geometry/angle.h"
 
-namespace sightline::triangulation {
+namespace sightline::motion {
 
 /// What the servo of the sensor head shall do until the next command.
 struct HeadCommand {
@@ -34,4 +34,4 @@ struct HeadLimits {
   std::string fault(const HeadCommand& command) const;
 };
 
-}  // namespace sightline::triangulation
+}  // namespace sightline::motion

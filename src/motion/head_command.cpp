@@ -1,11 +1,11 @@
-#include "sightline/triangulation/head_command.h"
+#include "sightline/motion/head_command.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-namespace sightline::triangulation {
+namespace sightline::motion {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::string HeadLimits::fault(const HeadCommand& command) const {
   return faultOfRate(*this, command.rate);
 }
 
-}  // namespace sightline::triangulation
+}  // namespace sightline::motion

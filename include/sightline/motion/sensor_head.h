@@ -1,8 +1,8 @@
 #pragma once
 
-#include "sightline/triangulation/head_command.h"
+#include "sightline/motion/head_command.h"
 
-namespace sightline::simulation {
+namespace sightline::motion {
 
 /// The servo platform that turns the sensor head: follows commands with limited rate and
 /// acceleration, and brakes before its target and before its limits. It comes to rest on a step of
@@ -10,27 +10,27 @@ namespace sightline::simulation {
 class SensorHead {
  public:
   /// Stands at 0, or at the step within its limits next to it. Throws config::Error.
-  explicit SensorHead(const triangulation::HeadLimits& limits);
+  explicit SensorHead(const HeadLimits& limits);
 
   /// Positions are rounded to the servo's steps. A command that limits().fault() names is to be
   /// refused before; here it does nothing.
-  void command(const triangulation::HeadCommand& command);
+  void command(const HeadCommand& command);
   /// Moves on by `duration` [s], small against the time that the rate takes to change.
   void step(double duration);
 
   double angle() const { return angle_; }  ///< [rad]
   double rate() const { return rate_; }    ///< [rad/s]
-  const triangulation::HeadLimits& limits() const { return limits_; }
+  const HeadLimits& limits() const { return limits_; }
 
  private:
   double restingPlace() const;
   double target() const;
   double wantedRate(double duration) const;
 
-  triangulation::HeadLimits limits_;
-  triangulation::HeadCommand command_;
+  HeadLimits limits_;
+  HeadCommand command_;
   double angle_;
   double rate_ = 0.0;
 };
 
-}  // namespace sightline::simulation
+}  // namespace sightline::motion
