@@ -87,7 +87,7 @@ pipeline::OdometryAids MotionInputs::aidsFor(scan::Scan& scan, const geometry::P
   const auto last = imu_.attitude(end);
   if (first && last) {
     const double yaw = T_base_sensor.theta();
-    aids.attitude = dead_reckoning::SweepAttitude{first->seenFrom(yaw), last->seenFrom(yaw)};
+    aids.attitude = motion::SweepAttitude{first->seenFrom(yaw), last->seenFrom(yaw)};
   }
   return aids;
 }

@@ -5,9 +5,9 @@
 
 namespace sightline::pipeline {
 
-using dead_reckoning::FloorConfig;
 using dead_reckoning::MotionPrior;
 using geometry::Pose2;
+using motion::FloorConfig;
 
 motion::OdometryNoise WheelsConfig::unmeasured() {
   motion::OdometryNoise noise;
@@ -148,9 +148,9 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::match(const sca
                                                                        const Prior& prior) {
   if (!config_.leans) return reckoner_.update(scan, T_base_sensor, prior);
   if (!aids.attitude) return matchLeaning(scan, T_base_sensor, prior);
-  on_floor_ = dead_reckoning::beamsOnFloor(config_.floor, scan, *aids.attitude);
-  const auto level = dead_reckoning::levelled(scan, *aids.attitude);
-  return reckoner_.update(dead_reckoning::without(level, on_floor_), T_base_sensor, prior);
+  on_floor_ = motion::beamsOnFloor(config_.floor, scan, *aids.attitude);
+  const auto level = motion::levelled(scan, *aids.attitude);
+  return reckoner_.update(motion::without(level, on_floor_), T_base_sensor, prior);
 }
 
 // Floor is told from walls by looking back, for which the pose has to be known: the scan is matched
@@ -164,7 +164,7 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
   if (std::count(on_floor_.begin(), on_floor_.end(), true) == 0) {
     reckoner_ = std::move(attempt);
   } else {
-    update = reckoner_.update(dead_reckoning::without(scan, on_floor_), T_base_sensor, prior);
+    update = reckoner_.update(motion::without(scan, on_floor_), T_base_sensor, prior);
   }
   finder_.remember(scan, update->pose.mean * T_base_sensor);
   const double elapsed = before_ ? 1e-9 * static_cast<double>(scan.stamp - before_->stamp) : 0.0;

@@ -62,7 +62,7 @@ class Walk {
   std::optional<Pose2> wheelsAt(std::int64_t stamp) const { return wheels_.at(stamp); }
   Pose2 truthAt(std::int64_t stamp) const { return simulation_.T_map_base(stamp); }
 
-  dead_reckoning::SweepAttitude attitudeOf(const scan::Scan& scan) const {
+  motion::SweepAttitude attitudeOf(const scan::Scan& scan) const {
     const auto end = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets().back());
     return {simulation_.bodyMotion(scan.stamp).attitude, simulation_.bodyMotion(end).attitude};
   }
@@ -119,7 +119,7 @@ TEST(ScanOdometry, WithAnAttitudeTheFloorIsLeftOut) {
     return simulation::inSpace(Pose2(-2.0, 0.0, 0.0)) * motion.outOfPlane(1.2);
   });
   OdometryAids aids;
-  aids.attitude = dead_reckoning::SweepAttitude{motion.attitude, motion.attitude};
+  aids.attitude = motion::SweepAttitude{motion.attitude, motion.attitude};
   const auto update = odometry.update(scan, Pose2(), aids);
   ASSERT_TRUE(update);
   const auto floor =

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sightline/dead_reckoning/dead_reckoner.h"
-#include "sightline/dead_reckoning/floor_finder.h"
 #include "sightline/geometry/pose2.h"
+#include "sightline/motion/floor_finder.h"
 #include "sightline/motion/odometry_noise.h"
 #include "sightline/scan/scan.h"
 
@@ -28,7 +28,7 @@ struct ScanOdometryConfig {
   dead_reckoning::DeadReckonerConfig matching;
   bool leans =
       false;  ///< whether the scanner does not keep level, so that it sees floor and ceiling
-  dead_reckoning::FloorConfig floor;
+  motion::FloorConfig floor;
   WheelsConfig wheels;
   double turn_rate_sigma = 0.02;  ///< of a gyroscope [rad/s]
 
@@ -37,9 +37,9 @@ struct ScanOdometryConfig {
 
 /// What is known beside a scan; all of it may be missing.
 struct OdometryAids {
-  std::optional<geometry::Pose2> T_odom_base;  ///< by the wheels, at the stamp
-  std::optional<double> turn;                  ///< by a gyroscope, since the scan before [rad]
-  std::optional<dead_reckoning::SweepAttitude> attitude;  ///< of the sensor
+  std::optional<geometry::Pose2> T_odom_base;     ///< by the wheels, at the stamp
+  std::optional<double> turn;                     ///< by a gyroscope, since the scan before [rad]
+  std::optional<motion::SweepAttitude> attitude;  ///< of the sensor
 };
 
 /// Odometry from scans, with what goes around the matching: the prior from wheels or a gyroscope,
@@ -85,7 +85,7 @@ class ScanOdometry {
 
   ScanOdometryConfig config_;
   dead_reckoning::DeadReckoner reckoner_;
-  dead_reckoning::FloorFinder finder_;
+  motion::FloorFinder finder_;
   std::optional<Before> before_;
   bool is_new_ = true;
   std::vector<bool> on_floor_;

@@ -1,14 +1,14 @@
-#include "sightline/dead_reckoning/floor.h"
+#include "sightline/motion/floor.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "sightline/dead_reckoning/floor_finder.h"
+#include "sightline/motion/floor_finder.h"
 #include "sightline/simulation/simulation.h"
 
-namespace sightline::dead_reckoning {
+namespace sightline::motion {
 namespace {
 
 using geometry::Pose2;
@@ -233,4 +233,4 @@ TEST(FloorFinder, RefusesSettingsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace sightline::dead_reckoning
+}  // namespace sightline::motion

@@ -1,8 +1,8 @@
-#include "sightline/dead_reckoning/floor.h"
+#include "sightline/motion/floor.h"
 
 #include <cmath>
 
-namespace sightline::dead_reckoning {
+namespace sightline::motion {
 
 namespace {
 
@@ -101,4 +101,4 @@ scan::Scan without(scan::Scan scan, const std::vector<bool>& beams) {
   return scan;
 }
 
-}  // namespace sightline::dead_reckoning
+}  // namespace sightline::motion

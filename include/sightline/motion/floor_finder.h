@@ -7,11 +7,11 @@
 
 #include <Eigen/Core>
 
-#include "sightline/dead_reckoning/floor.h"
 #include "sightline/geometry/pose2.h"
+#include "sightline/motion/floor.h"
 #include "sightline/scan/scan.h"
 
-namespace sightline::dead_reckoning {
+namespace sightline::motion {
 
 /// Finds the beams that end on floor or ceiling where nobody knows the attitude.
 ///
@@ -47,4 +47,4 @@ class FloorFinder {
   std::deque<Remembered> memory_;
 };
 
-}  // namespace sightline::dead_reckoning
+}  // namespace sightline::motion

@@ -10,7 +10,7 @@
 
 /// Beams of a scanner that leans: what they hit of floor and ceiling is no wall (saarinen section
 /// 4.3.4).
-namespace sightline::dead_reckoning {
+namespace sightline::motion {
 
 /// How a scanner that a person carries may lean, and how far it is from floor and ceiling.
 struct FloorConfig {
@@ -43,4 +43,4 @@ scan::Scan levelled(const scan::Scan& scan, const SweepAttitude& attitude);
 /// The scan with these beams made ReturnKind::kInvalid.
 scan::Scan without(scan::Scan scan, const std::vector<bool>& beams);
 
-}  // namespace sightline::dead_reckoning
+}  // namespace sightline::motion

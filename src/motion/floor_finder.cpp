@@ -1,4 +1,4 @@
-#include "sightline/dead_reckoning/floor_finder.h"
+#include "sightline/motion/floor_finder.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <iterator>
 #include <limits>
 
-namespace sightline::dead_reckoning {
+namespace sightline::motion {
 
 namespace {
 
@@ -178,4 +178,4 @@ std::vector<bool> FloorFinder::find(const scan::Scan& scan, const Pose2& T_odom_
   return on_floor;
 }
 
-}  // namespace sightline::dead_reckoning
+}  // namespace sightline::motion
