@@ -32,10 +32,6 @@ void WheelsConfig::visit(config::FieldVisitor& visitor) {
 
 void ScanOdometryConfig::visit(config::FieldVisitor& visitor) {
   matching.visit(visitor);
-  visitor.flag("leans", leans,
-               "the scanner does not keep level, as on a person: beams that end on floor or "
-               "ceiling are found and left out");
-  visitor.group("floor", floor);
   visitor.group("wheels", wheels);
   visitor.number("turn_rate_sigma", turn_rate_sigma,
                  {"rad/s", config::kPositive, "standard deviation of a gyroscope"});
@@ -85,14 +81,16 @@ void addUnknownTilt(const FloorConfig& config, const scan::Scan& scan, const Pos
 
 }  // namespace
 
-ScanOdometry::ScanOdometry(const ScanOdometryConfig& config)
-    : config_(config), reckoner_(config.matching), finder_(config.floor) {
+ScanOdometry::ScanOdometry(const ScanOdometryConfig& config,
+                           const std::optional<motion::FloorConfig>& floor)
+    : config_(config), reckoner_(config.matching), floor_(floor) {
   config::validate(config);
+  if (floor_) finder_.emplace(*floor_);
 }
 
 void ScanOdometry::reset() {
   reckoner_.reset();
-  finder_.forget();
+  if (finder_) finder_->forget();
   before_.reset();
   on_floor_.clear();
   is_new_ = true;
@@ -113,17 +111,18 @@ MotionPrior ScanOdometry::asBefore(double elapsed, double turn) const {
   return prior;
 }
 
-ScanOdometry::Prior ScanOdometry::priorOf(const scan::Scan& scan, const OdometryAids& aids) const {
+ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
   if (!before_) return std::nullopt;
-  const double elapsed = 1e-9 * static_cast<double>(scan.stamp - before_->stamp);
+  const double elapsed = 1e-9 * static_cast<double>(located.scan.stamp - before_->stamp);
   Prior prior;
-  if (aids.T_odom_base && before_->T_odom_base) {
-    prior = wheelPrior(config_.wheels, geometry::between(*before_->T_odom_base, *aids.T_odom_base));
+  if (located.T_odom_base && before_->T_odom_base) {
+    prior =
+        wheelPrior(config_.wheels, geometry::between(*before_->T_odom_base, *located.T_odom_base));
   }
-  if (!aids.turn) return prior;
+  if (!located.turn) return prior;
   // Of the turn the gyroscope knows better.
-  if (!prior) prior = asBefore(elapsed, *aids.turn);
-  prior->T_before_now = {prior->T_before_now.translation(), *aids.turn};
+  if (!prior) prior = asBefore(elapsed, *located.turn);
+  prior->T_before_now = {prior->T_before_now.translation(), *located.turn};
   const double sigma = config_.turn_rate_sigma * elapsed;
   prior->covariance.row(2).setZero();
   prior->covariance.col(2).setZero();
@@ -131,26 +130,20 @@ ScanOdometry::Prior ScanOdometry::priorOf(const scan::Scan& scan, const Odometry
   return prior;
 }
 
-std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(const scan::Scan& scan,
-                                                                        const Pose2& T_base_sensor,
-                                                                        const OdometryAids& aids) {
-  if (is_new_) reckoner_.reset(aids.T_odom_base.value_or(Pose2()));
-  const auto update = match(scan, T_base_sensor, aids, priorOf(scan, aids));
+std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
+    const LocatedScan& located) {
+  if (is_new_) reckoner_.reset(located.T_odom_base.value_or(Pose2()));
+  const Pose2 T_base_sensor = located.T_base_sensor.value_or(Pose2());
+  const Prior prior = priorOf(located);
+  on_floor_.clear();
+  const bool looks_for_floor = finder_ && !located.attitude;
+  const auto update = looks_for_floor ? matchLeaning(located.scan, T_base_sensor, prior)
+                                      : reckoner_.update(located.scan, T_base_sensor, prior);
   if (!update) return update;
   is_new_ = false;
-  before_ = Before{scan.stamp, aids.T_odom_base, update->twist, update->twist_covariance};
+  before_ =
+      Before{located.scan.stamp, located.T_odom_base, update->twist, update->twist_covariance};
   return update;
-}
-
-std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::match(const scan::Scan& scan,
-                                                                       const Pose2& T_base_sensor,
-                                                                       const OdometryAids& aids,
-                                                                       const Prior& prior) {
-  if (!config_.leans) return reckoner_.update(scan, T_base_sensor, prior);
-  if (!aids.attitude) return matchLeaning(scan, T_base_sensor, prior);
-  on_floor_ = motion::beamsOnFloor(config_.floor, scan, *aids.attitude);
-  const auto level = motion::levelled(scan, *aids.attitude);
-  return reckoner_.update(motion::without(level, on_floor_), T_base_sensor, prior);
 }
 
 // Floor is told from walls by looking back, for which the pose has to be known: the scan is matched
@@ -160,15 +153,15 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
   dead_reckoning::DeadReckoner attempt = reckoner_;
   auto update = attempt.update(scan, T_base_sensor, prior);
   if (!update) return update;
-  on_floor_ = finder_.find(scan, update->pose.mean * T_base_sensor);
+  on_floor_ = finder_->find(scan, update->pose.mean * T_base_sensor);
   if (std::count(on_floor_.begin(), on_floor_.end(), true) == 0) {
     reckoner_ = std::move(attempt);
   } else {
     update = reckoner_.update(motion::without(scan, on_floor_), T_base_sensor, prior);
   }
-  finder_.remember(scan, update->pose.mean * T_base_sensor);
+  finder_->remember(scan, update->pose.mean * T_base_sensor);
   const double elapsed = before_ ? 1e-9 * static_cast<double>(scan.stamp - before_->stamp) : 0.0;
-  addUnknownTilt(config_.floor, scan, T_base_sensor, elapsed, *update);
+  addUnknownTilt(*floor_, scan, T_base_sensor, elapsed, *update);
   return update;
 }
 

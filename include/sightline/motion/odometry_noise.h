@@ -30,6 +30,9 @@ struct OdometryNoise {
   double steering_sigma = 0.001;                  ///< after one radian of turn, share of it [rad]
 
   void visit(config::FieldVisitor& visitor);
+
+  /// Of wheels that nobody has measured: no biases, and twice jensfelt's spreads or more.
+  static OdometryNoise unmeasured();
 };
 
 /// The step as the model expects it to have happened: biases taken out, scale applied, along a path
