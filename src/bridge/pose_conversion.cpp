@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "sightline/bridge/time.h"
+
 namespace sightline::bridge {
 
 namespace {
@@ -75,8 +77,27 @@ Eigen::Matrix3d toCovariance3(const boost::array<double, 36>& covariance) {
   return result;
 }
 
-Mounting mountingOf(const geometry_msgs::Transform& T_base_sensor) {
-  return {toPose2(T_base_sensor), rotationOf(T_base_sensor.rotation)(2, 2) < 0.0};
+Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  const auto& t = transform.translation;
+  result.linear() = rotationOf(transform.rotation);
+  result.translation() = Eigen::Vector3d(t.x, t.y, t.z);
+  return result;
+}
+
+geometry_msgs::TransformStamped toTransformMessage(std::int64_t stamp, const std::string& parent,
+                                                   const std::string& child,
+                                                   const geometry::Pose2& T_parent_child) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = timeOf(stamp);
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform = toTransform(T_parent_child);
+  return message;
+}
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
 }  // namespace sightline::bridge

@@ -47,12 +47,8 @@ RoomsConfig readRooms(const Node& node) {
   return rooms;
 }
 
-// The topics: lasers are not listened to where there are range scans alone.
 void readScans(const Node& document, InputConfig& input) {
-  if (document.has("range_scans")) {
-    input.range_scans = readTopics(document.at("range_scans"));
-    input.scans.clear();
-  }
+  if (document.has("range_scans")) input.range_scans = readTopics(document.at("range_scans"));
   if (document.has("scans")) input.scans = readTopics(document.at("scans"));
 }
 
@@ -101,6 +97,16 @@ void RoomsConfig::check(const std::string& source) const {
   if (initial_sigma.size() != 2) {
     throw config::Error(source, 0, "initial_sigma", "expected position and heading");
   }
+}
+
+std::vector<std::string> InputConfig::laserTopics() const {
+  return scans.empty() && range_scans.empty() ? std::vector<std::string>{"scan"} : scans;
+}
+
+std::vector<std::string> InputConfig::topics() const {
+  std::vector<std::string> all = laserTopics();
+  all.insert(all.end(), range_scans.begin(), range_scans.end());
+  return all;
 }
 
 void InputConfig::visit(config::FieldVisitor& visitor) {

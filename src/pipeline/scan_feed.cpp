@@ -1,6 +1,6 @@
 #include "sightline/pipeline/scan_feed.h"
 
-#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace sightline::pipeline {
@@ -35,14 +35,15 @@ void ScanFeed::add(std::size_t scanner, motion::RangeScan range_scan, std::int64
 
 void ScanFeed::enqueue(ArrivedScan arrived) {
   ++counts_[arrived.scanner].arrived;
-  const auto place = std::upper_bound(
-      waiting_.begin(), waiting_.end(), arrived,
-      [](const ArrivedScan& a, const ArrivedScan& b) { return a.scan.stamp < b.scan.stamp; });
-  // Behind scans that were waiting when the clock was set back, or these would never get their
-  // turn.
-  const bool is_set_back =
-      !waiting_.empty() && arrived.scan.stamp < waiting_.back().scan.stamp - kSetBack;
-  waiting_.insert(is_set_back ? waiting_.end() : place, std::move(arrived));
+  // Scans of the time before the clock was set back stay in front.
+  const std::int64_t stamp = arrived.scan.stamp;
+  auto place = waiting_.end();
+  while (place != waiting_.begin()) {
+    const std::int64_t other = std::prev(place)->scan.stamp;
+    if (other <= stamp || other > stamp + kSetBack) break;
+    --place;
+  }
+  waiting_.insert(place, std::move(arrived));
 }
 
 void ScanFeed::refuse(std::size_t scanner, const std::string& reason) {

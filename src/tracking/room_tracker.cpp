@@ -46,6 +46,7 @@ class RoomTracker::Impl {
   }
 
   const world::RoomMap& map() const { return map_; }
+  bool hasPose() const { return filter_.has_value(); }
   void configure(const TrackerConfig& config);
   void setPose(const geometry::UncertainPose2& T_map_base);
   void inflate(double position_sigma, double heading_sigma);
@@ -289,6 +290,10 @@ void RoomTracker::restartClock() {
 std::optional<TrackerUpdate> RoomTracker::update(const scan::Scan& scan, const Pose2& T_odom_base,
                                                  const Pose2& T_base_sensor) {
   return impl_->update(scan, T_odom_base, T_base_sensor);
+}
+
+bool RoomTracker::hasPose() const {
+  return impl_->hasPose();
 }
 
 const world::RoomMap& RoomTracker::map() const {

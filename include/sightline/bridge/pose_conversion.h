@@ -1,9 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+
+#include <Eigen/Geometry>
 
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <boost/array.hpp>
 
 #include "sightline/geometry/pose2.h"
@@ -23,12 +27,12 @@ geometry_msgs::Quaternion toQuaternion(double yaw);
 boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance);
 Eigen::Matrix3d toCovariance3(const boost::array<double, 36>& covariance);
 
-/// How a planar sensor sits on its carrier.
-struct Mounting {
-  geometry::Pose2 T_base_sensor;
-  bool upside_down = false;  ///< scans have to be read with ScanReader::setUpsideDown
-};
-/// From the transform that takes points of the sensor's frame to the base frame.
-Mounting mountingOf(const geometry_msgs::Transform& T_base_sensor);
+Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform);
+geometry_msgs::TransformStamped toTransformMessage(std::int64_t stamp, const std::string& parent,
+                                                   const std::string& child,
+                                                   const geometry::Pose2& T_parent_child);
+
+/// A frame's name without the leading slash that tf of old wrote.
+std::string withoutSlash(const std::string& frame);
 
 }  // namespace sightline::bridge

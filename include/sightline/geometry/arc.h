@@ -25,4 +25,7 @@ struct Arc {
   std::size_t degrees_of_freedom = 0;
 };
 
+/// What the same sensor upside down sees: mirrored at the x axis.
+Arc mirrored(const Arc& arc);
+
 }  // namespace sightline::geometry

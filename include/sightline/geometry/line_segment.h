@@ -35,4 +35,7 @@ struct LineSegment {
   std::size_t degrees_of_freedom = 0;
 };
 
+/// What the same sensor upside down sees: mirrored at the x axis.
+LineSegment mirrored(const LineSegment& segment);
+
 }  // namespace sightline::geometry

@@ -43,8 +43,8 @@ struct RoomsConfig {
 
 /// Where the scans come from and how they are completed: what all estimators share.
 struct InputConfig {
-  std::vector<std::string> scans{"scan"};  ///< topics of sensor_msgs/LaserScan
-  std::vector<std::string> range_scans;    ///< topics of sightline/RangeScan
+  std::vector<std::string> scans;        ///< topics of sensor_msgs/LaserScan
+  std::vector<std::string> range_scans;  ///< topics of sightline/RangeScan
   std::string odometry_topic = "odom";
   std::string imu_topic = "imu";
   FeedConfig feed;
@@ -53,6 +53,9 @@ struct InputConfig {
 
   /// Without the topics of scans, which are lists of texts.
   void visit(config::FieldVisitor& visitor);
+  /// All topics of scans, lasers first; `scan` where none are named.
+  std::vector<std::string> topics() const;
+  std::vector<std::string> laserTopics() const;
 };
 
 /// What the estimators are to be set to, live and over a recording.

@@ -31,7 +31,8 @@ enum class OdometrySource {
 /// How scans are completed: what is known of the scanners, and how long to wait for what belongs to
 /// a scan. One set of defaults, live and over a recording.
 struct FeedConfig {
-  scan::NoiseModel noise;  ///< of scans that do not bring their variances along
+  /// Of scans that do not bring their variances along.
+  scan::NoiseModel noise{scan::NoiseKind::kEstimated};
   OdometrySource odometry_source = OdometrySource::kAutomatic;
   bool use_imu = true;
   motion::OdometryNoise sweep_noise = motion::OdometryNoise::unmeasured();

@@ -68,6 +68,8 @@ class RoomTracker {
   std::optional<TrackerUpdate> update(const scan::Scan& scan, const geometry::Pose2& T_odom_base,
                                       const geometry::Pose2& T_base_sensor);
 
+  /// Whether it has been given a pose.
+  bool hasPose() const;
   const world::RoomMap& map() const;
 
  private:
