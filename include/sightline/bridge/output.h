@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,7 @@ class Output {
   template <class Message>
   Port<Message> openConnection(const std::string& topic, bool latched);
 
-  ros::NodeHandle node_;
+  std::optional<ros::NodeHandle> node_;  // none for a bag
   rosbag::Bag* bag_ = nullptr;
   const ros::Time* now_ = nullptr;
 };
@@ -58,7 +59,7 @@ Port<Message> Output::open(const std::string& topic, bool latched) {
 template <class Message>
 Port<Message> Output::openTopic(const std::string& topic, bool latched) {
   constexpr std::uint32_t kQueue = 10;
-  const ros::Publisher publisher = node_.advertise<Message>(topic, kQueue, latched);
+  const ros::Publisher publisher = node_->advertise<Message>(topic, kQueue, latched);
   // By pointer, so that nodelets of one process are not served copies.
   return {[publisher](const Message& message) {
             publisher.publish(boost::make_shared<const Message>(message));
