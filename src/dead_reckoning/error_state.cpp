@@ -37,6 +37,11 @@ Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
 
 }  // namespace
 
+void ErrorState::reset() {
+  covariance_.setZero();
+  with_motion_.setZero();
+}
+
 Eigen::Matrix3d ErrorState::predicted(const Pose2& T_odom_base, const StepPrediction& step) const {
   const Derivatives next(T_odom_base, step);
   const Rows rows = next.rows();
@@ -55,7 +60,7 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   const Eigen::Matrix3d of_match = after * measurement.information * after.transpose();
   const Eigen::Matrix3d noise =
       rest * next.by_step * prediction.covariance * next.by_step.transpose() * rest.transpose() +
-      of_match + measurement.spread;
+      of_match + measurement.extra_covariance + measurement.motion_covariance;
   // How the end of the step errs besides the error of its start, from the errors before.
   Rows moved = Rows::Zero();
   moved.block<3, 3>(0, 3) = -gain * next.by_pose;
@@ -65,7 +70,7 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   transition << moved, moved, to_twist * moved;
   transition.block<3, 3>(0, 0) += next.by_pose;
   transition.block<3, 3>(3, 3) += next.by_pose;
-  Eigen::Matrix<double, 9, 3> entry;
+  Columns entry;
   entry << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), to_twist;
   // What the reference has in common with the scan before moves both ends of the step.
   Joint apart = covariance_;
@@ -76,15 +81,24 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   covariance_ =
       transition * covariance_ * transition.transpose() + entry * noise * entry.transpose();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  with_motion_ = entry * measurement.motion_covariance;
   return symmetric(next.by_step.transpose() * step_covariance * next.by_step);
+}
+
+void ErrorState::displace(const Eigen::Matrix3d& motion_covariance) {
+  with_motion_.setZero();
+  with_motion_.block<3, 3>(3, 0) = motion_covariance;
 }
 
 // What is handed over is taken for independent of what is left: that is 1 - share of the error, and
 // a part drawn anew.
 void ErrorState::handOver(double share) {
-  const Eigen::Matrix3d left = (1.0 - share) * againstReference();
+  const Columns kept = share * with_motion_;
+  const Eigen::Matrix3d left = (1.0 - share) * againstReference() + kept.block<3, 3>(3, 0);
   covariance_.block<3, 9>(3, 0) *= 1.0 - share;
   covariance_.block<9, 3>(0, 3) *= 1.0 - share;
+  covariance_.block<3, 9>(3, 0) += kept.transpose();
+  covariance_.block<9, 3>(0, 3) += kept;
   covariance_.block<3, 3>(3, 3) = left;
 }
 

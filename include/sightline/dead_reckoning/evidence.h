@@ -19,11 +19,11 @@ struct Evidence {
 /// scan looks through.
 ///
 /// @param profile  of the same sweep
-Evidence weigh(const LineMatch& match, const Sweep& sweep, const RangeProfile& profile,
+Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeProfile& profile,
                const Submap& submap);
 
-/// How the residuals of a match are spread.
-struct ResidualSpread {
+/// What the residuals of a match say of its covariance.
+struct ResidualStatistics {
   double variance = 1.0;     ///< in units of what was expected
   double correlation = 0.0;  ///< of neighbours, [0, 1): the reference's errors are theirs together
 
@@ -34,6 +34,6 @@ struct ResidualSpread {
   double common() const { return 2.0 * correlation / (1.0 + correlation); }
 };
 
-ResidualSpread spreadOf(const LineMatch& match);
+ResidualStatistics residualStatistics(const LineMatch& match);
 
 }  // namespace sightline::dead_reckoning

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "sightline/dead_reckoning/correlative_search.h"
 #include "sightline/dead_reckoning/dead_reckoner_config.h"
+#include "sightline/dead_reckoning/search_window.h"
 #include "sightline/geometry/pose2.h"
 
 namespace sightline::dead_reckoning {
