@@ -49,6 +49,22 @@ Eigen::Matrix3d ErrorState::predicted(const Pose2& T_odom_base, const StepPredic
                    next.by_step * step.covariance * next.by_step.transpose());
 }
 
+// What the reference has in common with the scan before moves both ends of a step. The motion
+// within a sweep is not of that kind: its part of the error against the reference stays whole.
+ErrorState::Joint ErrorState::apartFrom(double common) const {
+  const auto addMotion = [this](double sign, Joint& joint) {
+    joint.block<3, 9>(3, 0) += sign * with_motion_.transpose();
+    joint.block<9, 3>(0, 3) += sign * with_motion_;
+    joint.block<3, 3>(3, 3) -= sign * with_motion_.block<3, 3>(3, 0);
+  };
+  Joint apart = covariance_;
+  addMotion(-1.0, apart);
+  apart.block<3, 9>(3, 0) *= std::sqrt(1.0 - common);
+  apart.block<9, 3>(0, 3) *= std::sqrt(1.0 - common);
+  addMotion(1.0, apart);
+  return apart;
+}
+
 Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPrediction& prediction,
                                     const Pose2& step, double elapsed,
                                     const PoseMeasurement& measurement) {
@@ -72,10 +88,7 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   transition.block<3, 3>(3, 3) += next.by_pose;
   Columns entry;
   entry << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), to_twist;
-  // What the reference has in common with the scan before moves both ends of the step.
-  Joint apart = covariance_;
-  apart.block<3, 9>(3, 0) *= std::sqrt(1.0 - measurement.common);
-  apart.block<9, 3>(0, 3) *= std::sqrt(1.0 - measurement.common);
+  const Joint apart = apartFrom(measurement.common);
   const Eigen::Matrix3d step_covariance =
       moved * apart * moved.transpose() + noise - measurement.common * of_match;
   covariance_ =

@@ -58,6 +58,8 @@ class ErrorState {
   using Joint = Eigen::Matrix<double, 9, 9>;
   using Columns = Eigen::Matrix<double, 9, 3>;
 
+  Joint apartFrom(double common) const;
+
   Joint covariance_ = Joint::Zero();
   // Between these errors and the one that the motion within the last sweep made of its pose.
   Columns with_motion_ = Columns::Zero();
