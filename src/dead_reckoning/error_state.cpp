@@ -39,6 +39,7 @@ Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
 
 void ErrorState::reset() {
   covariance_.setZero();
+  motion_.setZero();
   with_motion_.setZero();
 }
 
@@ -94,25 +95,27 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   covariance_ =
       transition * covariance_ * transition.transpose() + entry * noise * entry.transpose();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
-  with_motion_ = entry * measurement.motion_covariance;
+  motion_ = measurement.motion_covariance;
+  with_motion_ = entry * motion_;
   return symmetric(next.by_step.transpose() * step_covariance * next.by_step);
 }
 
 void ErrorState::displace(const Eigen::Matrix3d& motion_covariance) {
+  motion_ = motion_covariance;
   with_motion_.setZero();
-  with_motion_.block<3, 3>(3, 0) = motion_covariance;
 }
 
 // What is handed over is taken for independent of what is left: that is 1 - share of the error, and
 // a part drawn anew.
 void ErrorState::handOver(double share) {
-  const Columns kept = share * with_motion_;
-  const Eigen::Matrix3d left = (1.0 - share) * againstReference() + kept.block<3, 3>(3, 0);
+  const Eigen::Matrix3d left = (1.0 - share) * againstReference() + share * motion_;
   covariance_.block<3, 9>(3, 0) *= 1.0 - share;
   covariance_.block<9, 3>(0, 3) *= 1.0 - share;
-  covariance_.block<3, 9>(3, 0) += kept.transpose();
-  covariance_.block<9, 3>(0, 3) += kept;
+  covariance_.block<3, 9>(3, 0) += share * with_motion_.transpose();
+  covariance_.block<9, 3>(0, 3) += share * with_motion_;
   covariance_.block<3, 3>(3, 3) = left;
+  with_motion_.block<3, 3>(3, 0) *= 1.0 - share;
+  with_motion_.block<3, 3>(3, 0) += share * motion_;
 }
 
 }  // namespace sightline::dead_reckoning

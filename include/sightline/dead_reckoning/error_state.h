@@ -61,7 +61,9 @@ class ErrorState {
   Joint apartFrom(double common) const;
 
   Joint covariance_ = Joint::Zero();
-  // Between these errors and the one that the motion within the last sweep made of its pose.
+  // Covariance of the error that the motion within the last sweep made of its pose, and what it has
+  // in common with the errors above.
+  Eigen::Matrix3d motion_ = Eigen::Matrix3d::Zero();
   Columns with_motion_ = Columns::Zero();
 };
 
