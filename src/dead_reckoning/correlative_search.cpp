@@ -64,7 +64,7 @@ struct Step {
   double x;
   double y;
   double heading;
-  long sum;  // of what its points count
+  long sum;  // what its points count, together
 };
 
 bool isBetter(const Step& a, const Step& b) {

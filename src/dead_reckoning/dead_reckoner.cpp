@@ -150,7 +150,7 @@ Eigen::Vector3d DeadReckoner::accelerationTo(const Eigen::Vector3d& twist, doubl
   return kept * acceleration_ + (1.0 - kept) * (twist - twist_) / elapsed;
 }
 
-// Whether the carrier can have made a step, as far as it is known where it began.
+// Tells whether the carrier can have made a step, as far as it is known where it began.
 bool DeadReckoner::isPossible(const Pose2& T_odom_base, double elapsed) const {
   const Pose2 step = geometry::between(T_odom_base_, T_odom_base);
   const Eigen::Vector3d sigma = errors_.againstReference().diagonal().cwiseSqrt();

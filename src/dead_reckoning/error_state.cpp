@@ -22,7 +22,7 @@ struct Derivatives {
         by_step(geometry::composeJacobianSecond(T_odom_base)),
         by_twist(by_step * prediction.by_twist) {}
 
-  // Of the pose against the reference.
+  // Derivatives of the pose against the reference, by the errors before.
   Rows rows() const {
     Rows rows = Rows::Zero();
     rows.block<3, 3>(0, 3) = by_pose;

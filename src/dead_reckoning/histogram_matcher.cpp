@@ -50,7 +50,7 @@ double halfSide(double position, double resolution) {
 }  // namespace
 
 double fieldDistance(double max_distance, double half) {
-  constexpr double kFirstCell = 0.5;  // of half the side
+  constexpr double kFirstCell = 0.5;  // as a share of half the side
   return std::max(max_distance, kHistogram.truncation_per_cell * kFirstCell * half);
 }
 

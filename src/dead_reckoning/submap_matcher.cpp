@@ -63,7 +63,7 @@ bool isDistinct(const Pose2& a, const Pose2& b) {
          std::abs(off[2]) > kMatch.distinct_heading;
 }
 
-// Whether refining one would lead to the other.
+// Tells whether refining one would lead to the other.
 bool isNeighbour(const Pose2& a, const Pose2& b) {
   const Eigen::Vector3d off = difference(a, b);
   return off.head<2>().norm() < kMatch.neighbour_position &&

@@ -57,7 +57,7 @@ struct Sums {
 struct Line {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();
-  // Of the residuals; infinite before the first fit.
+  // Mean square of the residuals; infinite before the first fit.
   double mean_square = std::numeric_limits<double>::infinity();
   double extent = 0.0;  // sum of squared distances from the centre along the line
 };
@@ -71,7 +71,7 @@ Line fit(const Sums& sums, std::size_t count) {
   const double half = 0.5 * (xx - yy);
   const double root = std::sqrt(half * half + xy * xy);
   const double smaller = 0.5 * (xx + yy) - root;
-  // Of the two equations for the eigenvector, the one that does not cancel.
+  // Two equations give the eigenvector: this is the one that does not cancel.
   const Eigen::Vector2d normal =
       half > 0.0 ? Eigen::Vector2d(-xy, half + root) : Eigen::Vector2d(root - half, -xy);
   // Two parameters were taken from the points.
@@ -111,7 +111,7 @@ class SurfaceFinder {
                     (points_[i - 1].position - sensor_).norm());
   }
 
-  // Of a point whose surface holds the points from `first` to before `end`.
+  // Finds the surface of a point, which holds the points from `first` to before `end`.
   void find(std::size_t i, std::size_t first, std::size_t end) {
     SurfacePoint& point = points_[i];
     if (end - first < kSurface.min_points) return;
@@ -152,7 +152,7 @@ class SurfaceFinder {
   Eigen::Vector2d sensor_;
   std::vector<SurfacePoint>& points_;
   std::vector<Sums> sums_;
-  std::vector<std::size_t> first_;  // of the points on the same surface
+  std::vector<std::size_t> first_;  // first point on the same surface, by point
 };
 
 // Noise of the motion, from the sensor's axes to the base's.

@@ -35,7 +35,7 @@ class Raster {
   void paint(const Eigen::Vector2i& centre);
 
   double cell_;
-  int half_;  // of the smear, in cells
+  int half_;  // half width of the smear [cells]
   std::vector<std::uint8_t> stamp_;
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
   int side_;
@@ -47,7 +47,7 @@ class SearchRasters {
  public:
   SearchRasters(const Submap& submap, const Eigen::Vector2d& centre_odom);
 
-  /// Whether they still show the submap, about a place near enough to this one.
+  /// Tells whether they still show the submap, about a place near enough to this one.
   bool show(const Submap& submap, const Eigen::Vector2d& centre_odom) const;
   const Raster& coarse() const { return coarse_; }
   const Raster& fine() const { return fine_; }

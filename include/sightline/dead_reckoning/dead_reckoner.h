@@ -22,8 +22,8 @@ namespace sightline::dead_reckoning {
 /// What something else says of the base's motion since the scan before: wheels, a gyroscope.
 struct MotionPrior {
   geometry::Pose2 T_before_now;
-  /// Of its coordinates (x, y, θ) [m², m rad, rad²]. Large entries leave to the scans what it does
-  /// not know: a gyroscope says nothing of x and y.
+  /// Covariance of its coordinates (x, y, θ) [m², m rad, rad²]. Large entries leave to the scans
+  /// what it does not know: a gyroscope says nothing of x and y.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
@@ -54,7 +54,7 @@ struct Match {
   /// Covariance of what the noise of the sensor's motion makes of the pose, or of the surfaces
   /// where the match failed.
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
-  std::uint64_t revision = 0;  ///< of the reckoner that it was made with
+  std::uint64_t revision = 0;  ///< state of the reckoner that it was made with
 };
 
 /// Follows a carrier by its scans alone, or with a prior (saarinen section 4.3.4).

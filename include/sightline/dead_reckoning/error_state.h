@@ -9,7 +9,7 @@ namespace sightline::dead_reckoning {
 
 /// What a match says of a pose.
 struct PoseMeasurement {
-  /// Of the coordinates (x, y, θ); may be singular, zero where there was no match.
+  /// Information on the coordinates (x, y, θ); may be singular, zero where there was no match.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   /// Covariance of what is uncertain besides.
   Eigen::Matrix3d extra_covariance = Eigen::Matrix3d::Zero();

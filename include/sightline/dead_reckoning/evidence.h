@@ -25,9 +25,9 @@ Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeP
 /// What the residuals of a match say of its covariance.
 struct ResidualStatistics {
   double variance = 1.0;     ///< in units of what was expected
-  double correlation = 0.0;  ///< of neighbours, [0, 1): the reference's errors are theirs together
+  double correlation = 0.0;  ///< of neighbours, [0, 1): they share errors of the reference
 
-  /// By how much the covariance of the match is larger than its information says: n neighbours
+  /// Factor by which the covariance of the match is larger than its information says: n neighbours
   /// count as n (1 − r)/(1 + r) at a correlation r.
   double factor() const { return variance * (1.0 + correlation) / (1.0 - correlation); }
   /// The share of that which is due to the reference.

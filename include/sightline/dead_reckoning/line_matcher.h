@@ -24,9 +24,11 @@ LineResidual lineResidual(const Eigen::Vector2d& translation_odom, const Eigen::
 /// A pose of the base at which a scan meets the reference.
 struct LineMatch {
   geometry::Pose2 T_odom_base;
-  /// Of the coordinates (x, y, θ), by the beams alone and as if their errors were independent.
+  /// Information on the coordinates (x, y, θ), by the beams alone and as if their errors were
+  /// independent.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  /// Of each point from its counterpart's line, in standard deviations; NaN without a counterpart.
+  /// Distance of each point from its counterpart's line, in standard deviations; NaN without a
+  /// counterpart.
   std::vector<double> residuals;
   std::vector<double> distances;  ///< the same in metres
   /// Covariance of what the noise of the sensor's motion adds to the gradient (MotionGradient).

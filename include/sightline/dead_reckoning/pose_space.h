@@ -23,7 +23,7 @@ class SortedPoints {
 
   /// The nearest neighbour (saarinen eq. 4.6), null where it is further than `reach` [m].
   const Eigen::Vector2d* nearest(const Eigen::Vector2d& point, double reach) const;
-  /// Whether there is any point within reach: eq. 4.5 needs no more.
+  /// Tells whether there is any point within reach: eq. 4.5 needs no more.
   bool hasNear(const Eigen::Vector2d& point, double reach) const;
 
  private:

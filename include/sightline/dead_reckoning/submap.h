@@ -57,7 +57,7 @@ class Submap {
     Eigen::Vector2d point;
     Eigen::Vector2d normal;
     double facing;  // least cosine between the normals
-    double square;  // of the distance, so far
+    double square;  // of the least distance so far [m²]
     const Surfel* surfel;
   };
   void rebuild();
