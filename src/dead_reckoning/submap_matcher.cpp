@@ -170,21 +170,10 @@ SubmapMatcher::Attempt SubmapMatcher::matchWith(const Reference& reference,
   return matchWidely(reference, task, std::move(hypotheses));
 }
 
-// A prediction that misled is believed as far as the window goes.
 SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, const Task& task,
                                                   std::vector<Hypothesis> hypotheses) const {
-  Task wide = task;
-  wide.window.position = std::max(task.window.position, kMatch.least_position);
-  wide.window.heading = std::max(task.window.heading, kMatch.least_heading);
-  const double position = kMatch.least_position / 3.0;
-  const double heading = kMatch.least_heading / 3.0;
-  wide.prior.covariance +=
-      Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
-  const Eigen::Vector2d centre = task.window.centre.translation();
-  Rasters rasters = reference.rasters;
-  if (!rasters || !rasters->show(reference.submap, centre)) {
-    rasters = std::make_shared<SearchRasters>(reference.submap, centre);
-  }
+  const Task wide = widened(task);
+  const Rasters rasters = rastersAbout(reference, task.window.centre.translation());
   const std::size_t most = isNarrow(task.window) ? kMatch.narrow_candidates : kMatch.candidates;
   const SearchResult found = searchRasters(task.surfaces.points, *rasters, wide.window, most);
   std::vector<Hypothesis> candidates;
@@ -197,11 +186,30 @@ SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, co
     candidates.push_back(
         refine(reference.submap, wide, candidate.T_odom_base, kMatch.search_scale));
   }
-  hypotheses.insert(hypotheses.end(), std::make_move_iterator(candidates.begin()),
-                    std::make_move_iterator(candidates.end()));
+  std::move(candidates.begin(), candidates.end(), std::back_inserter(hypotheses));
   MatchOutcome outcome = conclude(hypotheses, task);
   outcome.evaluations += found.evaluations;
   return {outcome, rasters};
+}
+
+// A prediction that misled is believed as far as the window goes.
+SubmapMatcher::Task SubmapMatcher::widened(const Task& task) {
+  Task wide = task;
+  wide.window.position = std::max(task.window.position, kMatch.least_position);
+  wide.window.heading = std::max(task.window.heading, kMatch.least_heading);
+  const double position = kMatch.least_position / 3.0;
+  const double heading = kMatch.least_heading / 3.0;
+  wide.prior.covariance +=
+      Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
+  return wide;
+}
+
+SubmapMatcher::Rasters SubmapMatcher::rastersAbout(const Reference& reference,
+                                                   const Eigen::Vector2d& centre_odom) {
+  if (reference.rasters && reference.rasters->show(reference.submap, centre_odom)) {
+    return reference.rasters;
+  }
+  return std::make_shared<SearchRasters>(reference.submap, centre_odom);
 }
 
 SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Task& task,

@@ -58,6 +58,8 @@ class SubmapMatcher : public Matcher {
   Attempt matchWith(const Reference& reference, const Task& task) const;
   Attempt matchWidely(const Reference& reference, const Task& task,
                       std::vector<Hypothesis> hypotheses) const;
+  static Task widened(const Task& task);
+  static Rasters rastersAbout(const Reference& reference, const Eigen::Vector2d& centre_odom);
   bool differsFromFresh(const MatchOutcome& outcome, const Task& task, Rasters& rasters) const;
   Hypothesis refine(const Submap& submap, const Task& task, const geometry::Pose2& start,
                     double scale) const;
