@@ -6,7 +6,7 @@ namespace sightline::motion {
 
 namespace {
 
-// Of the beams of a tilted sweep, in the level frame that shares the scanner's heading.
+// Directions of the beams of a tilted sweep, in the level frame that shares the scanner's heading.
 class TiltedBeams {
  public:
   TiltedBeams(const scan::ScanGeometry& geometry, const SweepAttitude& attitude)
@@ -83,7 +83,7 @@ scan::Scan levelled(const scan::Scan& scan, const SweepAttitude& attitude) {
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     const Eigen::Vector3d direction = beams.direction(i);
     const double bearing = std::atan2(direction.y(), direction.x());
-    // As many turns as the beam had: the angles have to go on in one sense.
+    // Keeps the number of revolutions of the beam: the angles have to go on in one sense.
     angles.push_back(scan.geometry()->angles()[i] +
                      geometry::wrapAngle(bearing - scan.geometry()->angles()[i]));
     ranges[i] *= direction.head<2>().norm();

@@ -12,18 +12,30 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr double kFit = 0.025;           // share of its range by which a beam may miss the line
-constexpr std::size_t kFewestBeams = 6;  // of a line
-constexpr int kMostLines = 4;            // of a scan
-constexpr double kMaxSkew = 0.8;         // rad; a person rather nods than rolls
-// How far a return may be from where a wall was seen, and how far behind it is seen through [m, 1].
-constexpr double kSameAt = 0.05;
-constexpr double kSameShare = 0.005;
-constexpr double kBehindAt = 0.1;
-constexpr double kBehindShare = 0.005;
-// A wall is seen through now and then, by a heading that errs or past its edge; but the floor
-// is often enough taken for the walls that it ends at.
-constexpr double kSupportPerContradiction = 0.65;
+// Chosen by hand; the odometry benchmark prints their recall and precision on simulated walks.
+struct FloorTuning {
+  // A line: share of its range by which a beam may miss it, fewest beams, most lines of a scan.
+  double fit = 0.025;
+  std::size_t fewest_beams = 6;
+  int most_lines = 4;
+  // Largest skew of its slope [rad]: a person rather nods than rolls.
+  double max_skew = 0.8;
+  // Share of the least distance of level ground from which on a beam counts as far: the scanner
+  // bobs.
+  double bob = 0.9;
+  // How far a return may be from where a wall was seen, and how far behind that it is seen through:
+  // a length [m] and a share of the range.
+  double same_at = 0.05;
+  double same_share = 0.005;
+  double behind_at = 0.1;
+  double behind_share = 0.005;
+  // A wall is seen through now and then, by a heading that errs or past its edge; but the floor is
+  // often enough taken for the walls that it ends at.
+  double support_per_contradiction = 0.65;
+  // Scans that saw through, where none saw it, so that a place is surely open.
+  int surely_open = 2;
+};
+constexpr FloorTuning kFloor{};
 
 // Slope of a scan's plane over the distance of a level surface [1/m].
 using Slope = Eigen::Vector2d;
@@ -33,7 +45,7 @@ Eigen::Vector2d bearingOf(const scan::Scan& scan, std::size_t beam) {
 }
 
 bool isOn(const Slope& slope, const scan::Scan& scan, std::size_t beam) {
-  return std::abs(slope.dot(bearingOf(scan, beam)) * scan.ranges()[beam] - 1.0) < kFit;
+  return std::abs(slope.dot(bearingOf(scan, beam)) * scan.ranges()[beam] - 1.0) < kFloor.fit;
 }
 
 std::optional<Slope> slopeThrough(const scan::Scan& scan, std::size_t a, std::size_t b) {
@@ -88,8 +100,8 @@ void consult(const scan::Scan& earlier, const Eigen::Vector2d& point, Sightings&
   bool is_open = true;
   for (std::size_t beam = *first; beam < *first + 4; ++beam) {
     const double sight = sightOf(earlier, beam);
-    if (std::abs(sight - range) < kSameAt + kSameShare * range) was_seen = true;
-    if (sight < range + kBehindAt + kBehindShare * range) is_open = false;
+    if (std::abs(sight - range) < kFloor.same_at + kFloor.same_share * range) was_seen = true;
+    if (sight < range + kFloor.behind_at + kFloor.behind_share * range) is_open = false;
   }
   if (was_seen) ++sightings.support;
   if (!was_seen && is_open) ++sightings.contradiction;
@@ -108,7 +120,7 @@ void FloorFinder::remember(const scan::Scan& scan, const Pose2& T_odom_sensor) {
 
 FloorFinder::Beams FloorFinder::farBeams(const scan::Scan& scan) const {
   const double clearance = std::min(config_.height, config_.headroom);
-  const double nearest = 0.9 * clearance / std::sin(config_.max_tilt);  // it bobs
+  const double nearest = kFloor.bob * clearance / std::sin(config_.max_tilt);
   Beams far;
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (scan.isValid(i) && scan.ranges()[i] > nearest) far.push_back(i);
@@ -122,13 +134,13 @@ std::optional<Eigen::Vector2d> FloorFinder::bestSlope(const scan::Scan& scan,
   constexpr std::array<std::size_t, 5> kApart{3, 6, 12, 24, 48};
   const double steepest = std::sin(config_.max_tilt) / std::min(config_.height, config_.headroom);
   std::optional<Slope> best;
-  long most = static_cast<long>(kFewestBeams) - 1;
+  long most = static_cast<long>(kFloor.fewest_beams) - 1;
   for (const std::size_t apart : kApart) {
     for (std::size_t i = 0; i + apart < beams.size(); ++i) {
       const auto slope = slopeThrough(scan, beams[i], beams[i + apart]);
       if (!slope || slope->norm() > steepest) continue;
       // Behind the scanner it falls where before it rises.
-      if (std::abs(std::atan2(slope->y(), std::abs(slope->x()))) > kMaxSkew) continue;
+      if (std::abs(std::atan2(slope->y(), std::abs(slope->x()))) > kFloor.max_skew) continue;
       const long count = std::count_if(beams.begin(), beams.end(),
                                        [&](std::size_t beam) { return isOn(*slope, scan, beam); });
       if (count <= most) continue;
@@ -142,7 +154,6 @@ std::optional<Eigen::Vector2d> FloorFinder::bestSlope(const scan::Scan& scan,
 // The whole line, or, where it is a wall's, what the floor in front of it has of it.
 FloorFinder::Beams FloorFinder::floorOf(const scan::Scan& scan, const Pose2& T_odom_sensor,
                                         const Beams& line) const {
-  constexpr int kSurelyOpen = 2;  // scans that saw through, and none that saw it
   std::vector<Sightings> of_beams(line.size());
   for (const Remembered& earlier : memory_) {
     const Pose2 T_earlier_now = geometry::between(earlier.T_odom_sensor, T_odom_sensor);
@@ -154,11 +165,11 @@ FloorFinder::Beams FloorFinder::floorOf(const scan::Scan& scan, const Pose2& T_o
   for (const Sightings& of_beam : of_beams) sightings += of_beam;
   // Where hardly anything is known, it is a wall that has just come into view.
   if (2 * sightings.count() <= static_cast<int>(line.size())) return {};
-  if (sightings.contradiction > kSupportPerContradiction * sightings.support) return line;
+  if (sightings.contradiction > kFloor.support_per_contradiction * sightings.support) return line;
   Beams open;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const auto& [support, contradiction] = of_beams[i];
-    if (support == 0 && contradiction >= kSurelyOpen) open.push_back(line[i]);
+    if (support == 0 && contradiction >= kFloor.surely_open) open.push_back(line[i]);
   }
   return open;
 }
@@ -166,7 +177,7 @@ FloorFinder::Beams FloorFinder::floorOf(const scan::Scan& scan, const Pose2& T_o
 std::vector<bool> FloorFinder::find(const scan::Scan& scan, const Pose2& T_odom_sensor) const {
   std::vector<bool> on_floor(scan.beams());
   Beams beams = farBeams(scan);
-  for (int lines = 0; lines < kMostLines; ++lines) {
+  for (int lines = 0; lines < kFloor.most_lines; ++lines) {
     const auto slope = bestSlope(scan, beams);
     if (!slope) break;
     const auto rest = std::stable_partition(

@@ -84,11 +84,11 @@ void Estimators::addMotion(Estimates& estimates) const {
   scan::Scan& scan = estimates.located.scan;
   const double duration = scan.duration();
   const Pose2 T_base_sensor = estimates.located.T_base_sensor.value_or(Pose2());
-  scan.setSensorMotion(
-      motion::sweepMotion(*scan.geometry(), Pose2::exp(duration * update->twist), T_base_sensor));
+  scan.setSensorMotion(motion::sweepMotion(
+      *scan.geometry(), Pose2::exp(duration * update->twist.mean), T_base_sensor));
   const Eigen::Matrix3d to_sensor = T_base_sensor.inverse().adjoint();
   scan.motion_noise.drift =
-      duration * duration * to_sensor * update->twist_covariance * to_sensor.transpose();
+      duration * duration * to_sensor * update->twist.covariance * to_sensor.transpose();
 }
 
 Estimators::Extractor& Estimators::extractorOf(std::size_t scanner) {

@@ -76,7 +76,7 @@ void addUnknownTilt(const FloorConfig& config, const scan::Scan& scan, const Pos
   update.pose.covariance += along(update.pose.mean.theta() + heading_base);
   if (elapsed <= 0.0) return;
   update.step.covariance += 2.0 * along(heading_base);
-  update.twist_covariance += 2.0 / (elapsed * elapsed) * along(heading_base);
+  update.twist.covariance += 2.0 / (elapsed * elapsed) * along(heading_base);
 }
 
 }  // namespace
@@ -103,9 +103,9 @@ void ScanOdometry::restartClock() {
 
 // The base goes on as before but for the turn.
 MotionPrior ScanOdometry::asBefore(double elapsed, double turn) const {
-  const Eigen::Vector3d& twist = before_->twist;
+  const Eigen::Vector3d& twist = before_->twist.mean;
   MotionPrior prior{Pose2::exp({elapsed * twist.x(), elapsed * twist.y(), turn}),
-                    elapsed * elapsed * before_->twist_covariance};
+                    elapsed * elapsed * before_->twist.covariance};
   const double position = config_.matching.carrier.acceleration * elapsed * elapsed;
   prior.covariance.diagonal().head<2>().array() += position * position;
   return prior;
@@ -141,8 +141,7 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
                                       : reckoner_.update(located.scan, T_base_sensor, prior);
   if (!update) return update;
   is_new_ = false;
-  before_ =
-      Before{located.scan.stamp, located.T_odom_base, update->twist, update->twist_covariance};
+  before_ = Before{located.scan.stamp, located.T_odom_base, update->twist};
   return update;
 }
 
@@ -150,18 +149,16 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
 // as it is first, and once more where it turns out to hold floor.
 std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
     const scan::Scan& scan, const Pose2& T_base_sensor, const Prior& prior) {
-  dead_reckoning::DeadReckoner attempt = reckoner_;
-  auto update = attempt.update(scan, T_base_sensor, prior);
-  if (!update) return update;
-  on_floor_ = finder_->find(scan, update->pose.mean * T_base_sensor);
-  if (std::count(on_floor_.begin(), on_floor_.end(), true) == 0) {
-    reckoner_ = std::move(attempt);
-  } else {
-    update = reckoner_.update(motion::without(scan, on_floor_), T_base_sensor, prior);
+  auto match = reckoner_.match(scan, T_base_sensor, prior);
+  if (!match) return std::nullopt;
+  on_floor_ = finder_->find(scan, match->T_odom_base * T_base_sensor);
+  if (std::count(on_floor_.begin(), on_floor_.end(), true) > 0) {
+    match = reckoner_.match(motion::without(scan, on_floor_), T_base_sensor, prior);
   }
-  finder_->remember(scan, update->pose.mean * T_base_sensor);
+  Update update = reckoner_.commit(*match);
+  finder_->remember(scan, update.pose.mean * T_base_sensor);
   const double elapsed = before_ ? 1e-9 * static_cast<double>(scan.stamp - before_->stamp) : 0.0;
-  addUnknownTilt(*floor_, scan, T_base_sensor, elapsed, *update);
+  addUnknownTilt(*floor_, scan, T_base_sensor, elapsed, update);
   return update;
 }
 

@@ -64,8 +64,7 @@ class ScanOdometry {
   struct Before {
     std::int64_t stamp = 0;
     std::optional<geometry::Pose2> T_odom_base;  // by the wheels
-    Eigen::Vector3d twist = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d twist_covariance = Eigen::Matrix3d::Zero();
+    geometry::UncertainTwist2 twist;
   };
   using Update = dead_reckoning::DeadReckoningUpdate;
   using Prior = std::optional<dead_reckoning::MotionPrior>;
