@@ -20,8 +20,8 @@ constexpr double kRadiusKnown = 0.5;
 constexpr double kArcParameters = 3.0;
 constexpr double kLineParameters = 2.0;
 
-bool overlaps(const Piece& piece, const Run& run, std::size_t round) {
-  for (const std::size_t shift : {std::size_t{0}, round}) {
+bool overlaps(const Piece& piece, const Run& run, std::size_t revolution) {
+  for (const std::size_t shift : {std::size_t{0}, revolution}) {
     if (piece.first + shift < run.end && run.first < piece.end + shift) return true;
   }
   return false;
@@ -115,7 +115,7 @@ ArcFinder::ArcFinder(const LineExtractorConfig& config)
 
 void ArcFinder::find(const scan::Scan& scan, const BeamArray& beams, std::vector<Piece>& pieces,
                      std::vector<geometry::Arc>& arcs) {
-  if (config_.max_radius <= 0.0 || beams.round == 0) return;
+  if (config_.max_radius <= 0.0 || beams.revolution == 0) return;
   observations_.returns.reserve(beams.beam.size());
   observations_.tangents.reserve(2);
   runs_.assign(beams, pieces);
@@ -136,7 +136,7 @@ bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const R
   if (!fit || !isPlausible(*fit) || !isLikelier(*fit, beams, run, pieces)) return false;
   arcs.push_back(toArc(*fit, scan, beams, run));
   const auto isChord = [&](const Piece& piece) {
-    return !runs_.isSureWall(piece.first) && overlaps(piece, run, beams.round);
+    return !runs_.isSureWall(piece.first) && overlaps(piece, run, beams.revolution);
   };
   pieces.erase(std::remove_if(pieces.begin(), pieces.end(), isChord), pieces.end());
   return true;
@@ -199,7 +199,7 @@ bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run&
   double lines = 0.0;
   double loose = static_cast<double>(run.size());
   for (const Piece& piece : pieces) {
-    if (!runs_.isDoubtfulWall(piece.first) || !overlaps(piece, run, beams.round)) continue;
+    if (!runs_.isDoubtfulWall(piece.first) || !overlaps(piece, run, beams.revolution)) continue;
     lines += piece.chi_square + (kLineParameters + 1.0) * price;
     loose -= piece.beams;
   }

@@ -82,7 +82,7 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
          std::abs(on_b - next_on_b) < slack + reach_b + spacingAt(neighbour, next);
 }
 
-// On a full circle the numbers may be a round off.
+// On a full circle the numbers may be a revolution off.
 bool EndPoints::areNeighbours(std::size_t i, std::size_t k) const {
   const std::size_t count = scan_.beams();
   const std::size_t ahead = (beams_.beam[k] + 2 * count - beams_.beam[i]) % count;

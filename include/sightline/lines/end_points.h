@@ -23,7 +23,7 @@ class EndPoints {
   EndPoints(const scan::Scan& scan, const BeamArray& beams) : scan_(scan), beams_(beams) {}
 
   /// `neighbour` is the piece met next in the direction of the end, null where there is none; on a
-  /// full circle its return numbers may be a round off.
+  /// full circle its return numbers may be a revolution off.
   EndPoint start(const Piece& piece, const Piece* neighbour) const;
   EndPoint end(const Piece& piece, const Piece* neighbour) const;
 
