@@ -216,9 +216,6 @@ void LineExtractor::report(const scan::Scan& scan) {
       sweep_noise_.widen(piece, config_.gate * config_.gate, segments_.back());
     }
   }
-  if (!sweep_noise_.isZero()) {
-    for (geometry::Arc& arc : arcs_) sweep_noise_.widen(arc);
-  }
   inOrderOfBeams(segments_);
   inOrderOfBeams(arcs_);
 }

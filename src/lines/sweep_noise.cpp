@@ -1,10 +1,10 @@
 #include "sightline/lines/sweep_noise.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "sightline/geometry/angle.h"
 #include "sightline/lines/beam_residuals.h"
+#include "sightline/lines/motion_sum.h"
 
 namespace sightline::lines {
 
@@ -24,35 +24,11 @@ Eigen::Matrix2d seenFrom(double position) {
   return jacobian;
 }
 
-// ∂p by the sensor's coordinates (x, y, θ), of a point at `arm` from the sensor.
-MotionSum::Response displacement(const Eigen::Vector2d& arm) {
-  MotionSum::Response jacobian;
-  jacobian << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
-  return jacobian;
-}
-
 void widenSigma(double& sigma, const Eigen::Matrix2d& covariance, const Eigen::Vector2d& along) {
   sigma = std::sqrt(sigma * sigma + along.dot(covariance * along));
 }
 
 }  // namespace
-
-Eigen::Matrix2d MotionSum::covariance(const scan::MotionNoise& noise) {
-  const auto isLater = [](const Term& a, const Term& b) { return a.time_ratio > b.time_ratio; };
-  if (!std::is_sorted(terms_.begin(), terms_.end(), isLater)) {
-    std::sort(terms_.begin(), terms_.end(), isLater);
-  }
-  Response all = Response::Zero();
-  Response by_time = Response::Zero();
-  Eigen::Matrix2d walked = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    all += terms_[i].response;
-    by_time += terms_[i].time_ratio * terms_[i].response;
-    const double before = i + 1 < terms_.size() ? terms_[i + 1].time_ratio : 0.0;
-    walked += (terms_[i].time_ratio - before) * all * noise.walk * all.transpose();
-  }
-  return walked + by_time * noise.drift * by_time.transpose();
-}
 
 void SweepNoise::assign(const scan::Scan& scan, const BeamArray& beams) {
   scan_ = &scan;
@@ -61,48 +37,36 @@ void SweepNoise::assign(const scan::Scan& scan, const BeamArray& beams) {
              !(scan.duration() > 0.0);
 }
 
-double SweepNoise::timeRatio(std::size_t beam) const {
-  return std::max(0.0, scan_->geometry()->timeOffsets()[beam]) / scan_->duration();
-}
-
-Eigen::Matrix3d SweepNoise::ofMotion(double time_ratio) const {
-  const scan::MotionNoise& noise = scan_->motion_noise;
-  return time_ratio * time_ratio * noise.drift + time_ratio * noise.walk;
-}
-
-Eigen::Vector2d SweepNoise::origin(std::size_t beam) const {
-  if (scan_->sensorMotion().empty()) return {0.0, 0.0};
-  return scan_->sensorMotion()[beam].translation();
-}
-
 Eigen::Matrix2d SweepNoise::ofPoint(const Eigen::Vector2d& point, std::size_t beam) const {
-  const MotionSum::Response jacobian = displacement(point - origin(beam));
-  return jacobian * ofMotion(timeRatio(beam)) * jacobian.transpose();
+  const Eigen::Matrix<double, 2, 3> jacobian = motionJacobian(*scan_, beam, point);
+  return jacobian * motionCovariance(*scan_, beam) * jacobian.transpose();
+}
+
+Eigen::RowVector3d SweepNoise::acrossLine(const LineEstimate& line, std::size_t beam) const {
+  const Eigen::RowVector2d normal(line.normal_x, line.normal_y);
+  return normal * motionJacobian(*scan_, beam, scan_->point(beam));
 }
 
 double SweepNoise::ofPrediction(const LineEstimate& line, std::size_t from, std::size_t to) const {
+  const std::size_t start = beams_->beam[from] % scan_->beams();
   const std::size_t beam = beams_->beam[to] % scan_->beams();
-  const Eigen::Vector2d normal(line.normal_x, line.normal_y);
-  const Eigen::RowVector3d across =
-      normal.transpose() * displacement(scan_->point(beam) - origin(beam));
-  const double passed = std::abs(timeRatio(beam) - timeRatio(beams_->beam[from] % scan_->beams()));
-  return across * ofMotion(passed) * across.transpose();
+  const double passed = std::abs(timeRatio(*scan_, beam) - timeRatio(*scan_, start));
+  const Eigen::RowVector3d across = acrossLine(line, beam);
+  return across * covarianceAfter(passed, scan_->motion_noise) * across.transpose();
 }
 
 // An error of the motion that moves beam i by nᵢ·dpᵢ across the line moves the estimate by
 // A⁻¹ Σ wᵢ hᵢ nᵢ·dpᵢ, with the information A, the weights w and the derivatives h of the residuals.
 void SweepNoise::addTo(const Piece& piece, const Eigen::Matrix2d& jacobian, double gate_squared) {
   const Eigen::Matrix2d gain = jacobian * inverse(piece.line.information);
-  const Eigen::Vector2d normal(piece.line.normal_x, piece.line.normal_y);
   for (std::size_t i = piece.end; i-- > piece.first;) {
     const BeamResiduals residuals = residualsOf(*beams_, i, piece.line);
     if (static_cast<double>(residuals.squared()[0]) > gate_squared) continue;
     const std::size_t beam = beams_->beam[i] % scan_->beams();
-    const Eigen::RowVector3d across =
-        normal.transpose() * displacement(scan_->point(beam) - origin(beam));
+    const Eigen::RowVector3d across = acrossLine(piece.line, beam);
     const Eigen::Vector2d answer =
         gain * Eigen::Vector2d(-1.0, static_cast<double>(residuals.position[0]));
-    sum_.add(timeRatio(beam), static_cast<double>(residuals.weight[0]) * answer * across);
+    sum_.add(timeRatio(*scan_, beam), static_cast<double>(residuals.weight[0]) * answer * across);
   }
 }
 
@@ -134,13 +98,6 @@ void SweepNoise::widen(const Piece& piece, double gate_squared, geometry::LineSe
   const Eigen::Vector2d along = segment.line.direction();
   widenSigma(segment.start_sigma, ofPoint(segment.ends.start, segment.first_beam), along);
   widenSigma(segment.end_sigma, ofPoint(segment.ends.end, segment.last_beam), along);
-}
-
-void SweepNoise::widen(geometry::Arc& arc) const {
-  const std::size_t count = scan_->beams();
-  const std::size_t length = (arc.last_beam + count - arc.first_beam) % count;
-  arc.covariance.topLeftCorner<2, 2>() +=
-      ofPoint(arc.centre, (arc.first_beam + length / 2) % count);
 }
 
 }  // namespace sightline::lines

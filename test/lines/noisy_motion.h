@@ -19,13 +19,14 @@ struct NoisySweep {
 
   scan::Scan take(Gauss& gauss) const {
     const Eigen::Vector3d drift = gauss(noise.drift);
+    const bool walks = !noise.walk.isZero(0.0);
     const double steps = static_cast<double>(scan.beams - 1);
     Eigen::Vector3d walk = Eigen::Vector3d::Zero();
     std::vector<double> ranges;
     std::vector<geometry::Pose2> meant;
     for (std::size_t i = 0; i < scan.beams; ++i) {
       const double ratio = static_cast<double>(i) / steps;
-      if (i > 0) walk += gauss(Eigen::Matrix3d(noise.walk / steps));
+      if (i > 0 && walks) walk += gauss(Eigen::Matrix3d(noise.walk / steps));
       meant.push_back(geometry::Pose2::exp(ratio * motion));
       const geometry::Pose2 happened = moved(meant.back(), ratio * drift + walk, gauss);
       ranges.push_back(rangeFrom(happened, i, gauss));
