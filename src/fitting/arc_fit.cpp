@@ -63,6 +63,12 @@ Residual residualOf(const ArcTangent& of, const ArcFit& circle) {
   return residual;
 }
 
+// ∂(x, y, radius) by the value of one residual.
+Eigen::Vector3d responseOf(const Residual& residual, const ArcFit& fit, double gate) {
+  if (residual.squared() > gate * gate) return Eigen::Vector3d::Zero();
+  return -fit.covariance * residual.jacobian / residual.variance;
+}
+
 struct Normals {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
@@ -197,6 +203,21 @@ std::optional<ArcFit> refineArc(const ArcObservations& observations, const ArcFi
     return finished(observations, circle, normalsOf(observations, circle, gate * gate));
   }
   return std::nullopt;
+}
+
+Eigen::Matrix<double, 3, 2> responseTo(const ArcReturn& of, const ArcFit& fit, double gate) {
+  const Residual residual = residualOf(of, fit);
+  const Eigen::RowVector2d by_point = -residual.jacobian.head<2>().transpose();
+  return responseOf(residual, fit, gate) * by_point;
+}
+
+Eigen::Matrix3d responseTo(const ArcTangent& of, const ArcFit& fit, double gate) {
+  const Residual residual = residualOf(of, fit);
+  const double side = cross(of.direction, fit.centre - of.origin) < 0.0 ? -1.0 : 1.0;
+  Eigen::RowVector3d by_ray;
+  by_ray << -residual.jacobian.head<2>().transpose(),
+      -side * of.direction.dot(fit.centre - of.origin);
+  return responseOf(residual, fit, gate) * by_ray;
 }
 
 std::optional<ArcFit> fitArc(const ArcObservations& observations, double gate) {

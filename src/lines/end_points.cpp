@@ -82,7 +82,7 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
          std::abs(on_b - next_on_b) < slack + reach_b + spacingAt(neighbour, next);
 }
 
-// On a full circle the numbers may be a round off.
+// On a full circle the numbers may be a revolution off.
 bool EndPoints::areNeighbours(std::size_t i, std::size_t k) const {
   const std::size_t count = scan_.beams();
   const std::size_t ahead = (beams_.beam[k] + 2 * count - beams_.beam[i]) % count;
@@ -97,14 +97,15 @@ double EndPoints::spacingAt(const Piece& piece, std::size_t i) const {
 EndPoint EndPoints::edge(const Piece& piece, std::size_t last, Side side) const {
   const std::size_t beam = beams_.beam[last] % scan_.beams();
   const Meeting on = meet(piece.line, beam);
-  EndPoint point{on.position, on.variance, EndKind::kScanLimit};
+  EndPoint point{on.position, on.variance + on.jitter, EndKind::kScanLimit};
   const std::size_t telling = nextTellingBeam(scan_, beam, side == Side::kEnd ? 1 : -1);
   if (telling == beam) return point;
   const Meeting past = meet(piece.line, telling);
   if (!past.exists || past.range > scan_.geometry()->rangeMax()) return point;
   const double step = past.position - on.position;
   point.position += 0.5 * step;
-  point.variance += step * step / 12.0;
+  // Halfway between two beams that err by themselves.
+  point.variance += step * step / 12.0 - 0.5 * on.jitter;
   const bool behind = scan_.kinds()[telling] == scan::ReturnKind::kNothing ||
                       (scan_.isValid(telling) && scan_.ranges()[telling] > past.range);
   point.kind = behind ? EndKind::kOccludingEdge : EndKind::kOccluded;
@@ -119,11 +120,22 @@ EndPoints::Meeting EndPoints::meet(const LineEstimate& line, std::size_t beam) c
   const Eigen::Vector2d normal(line.normal_x, line.normal_y);
   const Eigen::Vector2d along(line.alongX(), line.alongY());
   const double facing = normal.dot(direction);
-  if (facing < static_cast<double>(kMinIncidence)) return {0.0, 0.0, 0.0, false};
+  if (facing < static_cast<double>(kMinIncidence)) return {0.0, 0.0, 0.0, 0.0, false};
   const double range = (line.rho - normal.dot(origin)) / facing;
   const double position = along.dot(origin + range * direction);
   const double slope = along.dot(direction) / facing;
-  return {position, range, slope * slope * varianceAt(line, position), range > 0.0};
+  const double jitter = jitterAt(origin + range * direction, along - slope * normal);
+  return {position, range, slope * slope * varianceAt(line, position), jitter, range > 0.0};
+}
+
+// A beam turned about the axis of the jitter meets the line elsewhere: `slide` is what the position
+// gains by a displacement of the beam.
+double EndPoints::jitterAt(const Eigen::Vector2d& point, const Eigen::Vector2d& slide) const {
+  const scan::MotionNoise& noise = scan_.motion_noise;
+  if (noise.jitter == 0.0) return 0.0;
+  const Eigen::Vector2d arm = point - noise.jitter_axis;
+  const double moved = slide.y() * arm.x() - slide.x() * arm.y();
+  return noise.jitter * moved * moved;
 }
 
 }  // namespace sightline::lines

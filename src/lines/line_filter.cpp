@@ -24,14 +24,15 @@ constexpr double kLenience = 4.0;
 // The validation gate of one prediction.
 class Gate {
  public:
-  Gate(const LineEstimate& line, double gate_squared)
+  Gate(const LineEstimate& line, double gate_squared, double motion_noise)
       : gate_squared_(static_cast<float>(gate_squared)) {
     // About the middle of the line, where rounding does least harm.
     const Information& info = line.information;
     const double middle = -info.rho_phi / info.rho_rho;
     const double scale = gate_squared / info.determinant();
     middle_ = static_cast<float>(middle);
-    rho_rho_ = static_cast<float>(scale * info.shifted(middle).phi_phi);
+    rho_rho_ =
+        static_cast<float>(scale * info.shifted(middle).phi_phi + gate_squared * motion_noise);
     phi_phi_ = static_cast<float>(scale * info.rho_rho);
   }
 
@@ -86,8 +87,13 @@ struct LineFilter::Moments {
   }
 };
 
-LineFilter::LineFilter(const BeamArray& beams, const LineExtractorConfig& config)
-    : beams_(beams), config_(config), gap_(config), gate_squared_(config.gate * config.gate) {}
+LineFilter::LineFilter(const BeamArray& beams, const SweepNoise& sweep_noise,
+                       const LineExtractorConfig& config)
+    : beams_(beams),
+      sweep_noise_(sweep_noise),
+      config_(config),
+      gap_(config),
+      gate_squared_(config.gate * config.gate) {}
 
 bool LineFilter::start(std::size_t first, std::size_t end) {
   const double wanted = config_.start_phi_sigma * config_.start_phi_sigma;
@@ -165,7 +171,7 @@ std::size_t LineFilter::takeStride(std::size_t next, std::size_t end) {
   const std::size_t stop = next + stride;
   if (stride <= kBlock || stop > end || next < careful_until_) return 0;
   if (isYoung() || !isUnbroken(piece_.end - 1, stop - 1)) return 0;
-  const Gate gate(piece_.line, gate_squared_);
+  const Gate gate(piece_.line, gate_squared_, motionNoise(stop - 1));
   NormalSums sums(positionOn(beams_, next, piece_.line));
   Packet excess = all(0.0F);
   for (std::size_t i = next; i < stop; i += kLanes) {
@@ -207,7 +213,7 @@ std::size_t LineFilter::takeSome(std::size_t next, std::size_t end) {
 
 SIGHTLINE_VECTOR_CLONES
 LineFilter::Validation LineFilter::validate(std::size_t first) const {
-  const Gate gate(piece_.line, gate_squared_);
+  const Gate gate(piece_.line, gate_squared_, motionNoise(first));
   Validation validation;
   for (std::size_t i = 0; i < kBlock; i += kLanes) {
     BeamResiduals& residuals = validation.residuals[i / kLanes];
@@ -233,6 +239,13 @@ std::size_t LineFilter::countBridged(const Validation& validation, std::size_t n
     position = static_cast<double>(validation.position[i]);
   }
   return count;
+}
+
+// Of the way from the middle of what the line is known from.
+double LineFilter::motionNoise(std::size_t next) const {
+  if (sweep_noise_.isZero()) return 0.0;
+  return sweep_noise_.ofPrediction(piece_.line, piece_.first + piece_.size() / 2,
+                                   std::min(next, beams_.size - 1));
 }
 
 void LineFilter::update(NormalEquations fresh) {
