@@ -44,7 +44,7 @@ class BodyWornWalk {
   BodyWornWalk(const Building& building, double reach, std::uint64_t seed)
       : building_(building),
         simulation_(building.world, person(), start(), seed),
-        odometry_(profileOfCarrier()) {
+        odometry_(profileOfCarrier(), floorOfCarrier()) {
     simulation_.walk({});
     simulation::ScannerProfile scanner;
     scanner.beams = 361;
@@ -89,11 +89,17 @@ class BodyWornWalk {
     return person;
   }
 
+  static config::Node carrier() {
+    return config::Node::readFile(SIGHTLINE_SOURCE_DIR "/config/carriers/body_worn.yaml");
+  }
   static pipeline::ScanOdometryConfig profileOfCarrier() {
     pipeline::ScanOdometryConfig config;
-    const auto file =
-        config::Node::readFile(SIGHTLINE_SOURCE_DIR "/config/carriers/body_worn.yaml");
-    config::read(file.at("odometry"), config);
+    config::read(carrier().at("odometry"), config);
+    return config;
+  }
+  static motion::FloorConfig floorOfCarrier() {
+    motion::FloorConfig config;
+    config::read(carrier().at("floor"), config);
     return config;
   }
 
@@ -107,9 +113,15 @@ class BodyWornWalk {
     return (here - building_.way.back()).norm() < 0.5;
   }
 
+  static pipeline::LocatedScan located(const scan::Scan& scan) {
+    pipeline::LocatedScan located;
+    located.scan = scan;
+    return located;
+  }
+
   void take(const scan::Scan& scan, BodyWornScore& score) {
     const Pose2 truth = simulation_.T_map_base(scan.stamp);
-    const auto update = odometry_.update(scan, Pose2());
+    const auto update = odometry_.update(located(scan));
     ++score.scans;
     countFloor(scan, score);
     if (score.scans > 1 && begun_) scoreStep(geometry::between(before_, truth), *update, score);
