@@ -150,6 +150,9 @@ std::size_t RoomMap::addPolygon(const std::string& name,
 }
 
 void RoomMap::setSpans(const WallIndex& index, const std::vector<Span>& spans) {
+  if (index.room >= rooms_.size() || index.wall >= rooms_[index.room].walls.size()) {
+    throw InvalidRoomMap("", "no such wall");
+  }
   Wall& wall = rooms_[index.room].walls[index.wall];
   const double length = wall.segment.length();
   std::vector<Span> inside;
@@ -171,6 +174,7 @@ void RoomMap::setSpans(const WallIndex& index, const std::vector<Span>& spans) {
 
 void RoomMap::addDoor(std::size_t room, std::size_t other, const Eigen::Vector2d& centre_map,
                       double width, bool threshold) {
+  if (std::max(room, other) >= rooms_.size()) throw InvalidRoomMap("between", "no such room");
   requireCoordinates(centre_map, "at");
   requireWithin(kBuildingLengths, width, "width");
   Door door{{room, other}, {0, 0}, centre_map, width, threshold};

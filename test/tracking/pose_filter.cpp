@@ -4,6 +4,7 @@
 
 #include "monte_carlo.h"
 #include "numeric_jacobian.h"
+#include "sightline/motion/sweep_noise.h"
 
 namespace sightline::tracking {
 namespace {
@@ -136,6 +137,44 @@ TEST(PoseFilter, SharedMotionOfASweepIsNotAveragedAway) {
   const Eigen::Vector2d across = wall.normal();
   const double variance = across.dot(filter.pose().covariance.topLeftCorner<2, 2>() * across);
   EXPECT_GT(variance, 0.5e-4);
+}
+
+// What a scan says of the motion in its sweep holds for the first half of the step that follows;
+// the other half errs anew.
+TEST(PoseFilter, PredictionIsConsistentWithWhatTheSweepToldOfTheMotion) {
+  motion::OdometryNoise odometry = motion::OdometryNoise::unmeasured();
+  odometry.scale_sigma = 0.0;
+  const Pose2 step(0.6, 0.05, 0.3);
+  const Pose2 half = geometry::interpolate({}, step, 0.5);
+  const Eigen::Matrix3d half_noise = motion::stepCovariance(odometry, half);
+  const Eigen::Matrix3d to_twist = motion::coordinatesByStartTwist(half).inverse();
+  const Eigen::Matrix3d sweep = to_twist * half_noise * to_twist.transpose();
+  const PolarLine walls[] = {lineOf(4.0, 0.1), lineOf(3.0, 1.8)};
+  Motion follows;
+  follows << 0.5, 0.2, 1.0, 0.0, 0.0, 0.5;
+  test::Gauss gauss(6);
+  double sum = 0.0;
+  constexpr int kRobots = 4000;
+  for (int i = 0; i < kRobots; ++i) {
+    const Eigen::Vector3d motion_error = gauss(sweep);
+    const Pose2 truth(kStart.mean.coordinates() + gauss(kStart.covariance));
+    PoseFilter filter(odometry, kStart);
+    filter.beginSweep(sweep);
+    for (const PolarLine& wall : walls) {
+      PolarLine measured = geometry::transform(truth.inverse(), wall);
+      const Eigen::Vector2d moved = follows * motion_error;
+      measured.rho += gauss(0.002) + moved[0];
+      measured.phi += gauss(0.001) + moved[1];
+      measured.covariance = lineOf(0, 0, 0.002, 0.001).covariance;
+      filter.update(filter.innovation(measured, wall, follows));
+    }
+    filter.predict(odometry, step);
+    const Pose2 rest(half.coordinates() + gauss(half_noise));
+    const Pose2 end = truth * Pose2::exp(-motion_error) * half * rest;
+    const Eigen::Vector3d error = filter.pose().mean.coordinates() - end.coordinates();
+    sum += test::normalisedSquare<3>(error, filter.pose().covariance);
+  }
+  EXPECT_NEAR(sum / kRobots, 3.0, 0.15);
 }
 
 }  // namespace
