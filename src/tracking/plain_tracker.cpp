@@ -67,7 +67,8 @@ std::vector<WallFit> findPlainly(const TrackerConfig& config, const PlainFilter&
     if (!peaks[i] || !is_enough) continue;
     refined.update(compareLines(refined.pose().mean, *peaks[i], walls[i]->segment.line()));
   }
-  const auto second = gateWalls(config.gate, walls, 0.0, refined.pose(), sweep.points);
+  auto second = gateWalls(config.gate, walls, 0.0, refined.pose(), sweep.points);
+  giveEachBeamToOneWall(second);
   std::vector<WallFit> fits(walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {
     fits[i].wall = i;
