@@ -19,6 +19,7 @@
 #include "sightline/geometry/angle.h"
 #include "sightline/geometry/statistics.h"
 #include "sightline/motion/pose_history.h"
+#include "sightline/motion/sweep_noise.h"
 #include "sightline/pipeline/scan_motion.h"
 #include "sightline/scan/noise_model.h"
 #include "sightline/simulation/simulation.h"
@@ -62,15 +63,8 @@ struct Sample {
   double microseconds = 0.0;
 };
 
-world::World twoRooms() {
-  world::World world;
-  const world::RoomMap map(config::Node::parse(kRooms, "two rooms"));
-  for (const geometry::Segment& wall : world::solidWalls(map)) {
-    world::WorldSegment segment;
-    segment.segment = wall;
-    world.add(segment);
-  }
-  return world;
+world::RoomMap twoRooms() {
+  return world::RoomMap(config::Node::parse(kRooms, "two rooms"));
 }
 
 simulation::ScannerProfile scannerProfile(const Scenario& scenario) {
@@ -120,8 +114,9 @@ class Run {
   Run(const Scenario& scenario, std::uint64_t seed, const tracking::TrackerConfig& config)
       : scenario_(scenario),
         random_(seed),
-        simulation_(twoRooms(), robotConfig(), start_, seed),
-        tracker_(config, world::RoomMap(config::Node::parse(kRooms, "two rooms"))) {
+        simulation_(world::World::of(twoRooms()), robotConfig(), start_, seed),
+        noise_(config.odometry),
+        tracker_(config, twoRooms()) {
     simulation_.addScanner(scannerProfile(scenario), {});
     simulation_.follow(simulation::Path(config::Node::parse(kPath, "path")));
     tracker_.setPose({start_, Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal()});
@@ -158,6 +153,8 @@ class Run {
     const auto odometry =
         pipeline::addMotion(scan, [this](std::int64_t stamp) { return odometry_.at(stamp); }, {});
     if (!odometry) return;
+    const auto end = odometry_.at(scan.end());
+    if (end) scan.motion_noise = motion::sweepNoise(noise_, geometry::between(*odometry, *end), {});
     const auto update = tracker_.update(scan, *odometry, {});
     const std::chrono::duration<double, std::micro> spent =
         std::chrono::steady_clock::now() - begin;
@@ -175,6 +172,7 @@ class Run {
   Pose2 start_{-2.0, 1.0, -1.5};
   std::mt19937_64 random_;
   simulation::Simulation simulation_;
+  motion::OdometryNoise noise_;
   tracking::RoomTracker tracker_;
   motion::PoseHistory truth_;
   motion::PoseHistory odometry_;

@@ -71,7 +71,7 @@ TEST_F(ScanFeedTest, WaitsUntilTheOdometryCoversTheSweep) {
   EXPECT_TRUE(located.no_odometry.empty());
   ASSERT_EQ(located.scan.sensorMotion().size(), 11U);
   EXPECT_NEAR(located.scan.sensorMotion().back().x(), 0.1, 1e-6);
-  EXPECT_GT(located.scan.motion_noise.drift(0, 0), 0.0);
+  EXPECT_GT(located.scan.motion_noise.walk(0, 0), 0.0);
 }
 
 TEST_F(ScanFeedTest, GoesOnWithoutWhatDoesNotComeInTime) {

@@ -86,6 +86,8 @@ class World {
   /// Throws config::Error with file, line and key.
   explicit World(const config::Node& document);
   static World readFile(const std::string& path) { return World(config::Node::readFile(path)); }
+  /// The solid walls of a map, of plaster and as high as walls are by default, and nothing else.
+  static World of(const RoomMap& map);
 
   /// Index for the surfaces made of it; a second one of a name replaces the first from here on.
   std::size_t addMaterial(const Material& material);
