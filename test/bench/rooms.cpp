@@ -16,11 +16,11 @@
 #include <Eigen/LU>
 
 #include "rooms/freiburg.h"
+#include "scripted_transforms.h"
 #include "sightline/geometry/angle.h"
 #include "sightline/geometry/statistics.h"
 #include "sightline/motion/pose_history.h"
-#include "sightline/motion/sweep_noise.h"
-#include "sightline/pipeline/scan_motion.h"
+#include "sightline/pipeline/scan_feed.h"
 #include "sightline/scan/noise_model.h"
 #include "sightline/simulation/simulation.h"
 #include "sightline/tracking/room_tracker.h"
@@ -115,8 +115,10 @@ class Run {
       : scenario_(scenario),
         random_(seed),
         simulation_(world::World::of(twoRooms()), robotConfig(), start_, seed),
-        noise_(config.odometry),
+        feed_(feedConfig(config), {}, {}, transforms_),
         tracker_(config, twoRooms()) {
+    transforms_.mount("", Pose2());
+    feed_.addScanner();
     simulation_.addScanner(scannerProfile(scenario), {});
     simulation_.follow(simulation::Path(config::Node::parse(kPath, "path")));
     tracker_.setPose({start_, Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal()});
@@ -126,8 +128,9 @@ class Run {
     while (simulation_.time() < static_cast<std::int64_t>(kSeconds * 1e9)) {
       auto finished = simulation_.step();
       truth_.add(simulation_.time(), simulation_.robot().T_map_base());
-      odometry_.add(simulation_.time(), slip() * simulation_.robot().odometry().pose().mean);
-      for (auto& sweep : finished) track(sweep.scan);
+      transforms_.drive(simulation_.time(), slip() * simulation_.robot().odometry().pose().mean);
+      for (auto& sweep : finished) take(sweep.scan);
+      track();
     }
     return samples_;
   }
@@ -147,18 +150,29 @@ class Run {
     return T_slip_;
   }
 
-  void track(scan::Scan& scan) {
+  static pipeline::FeedConfig feedConfig(const tracking::TrackerConfig& config) {
+    pipeline::FeedConfig feed;
+    feed.noise.kind = scan::NoiseKind::kConstant;
+    feed.sweep_noise = config.odometry;
+    return feed;
+  }
+
+  void take(scan::Scan& scan) {
     addClutter(scenario_.clutter, random_, scan);
+    feed_.add(0, std::move(scan), simulation_.time());
+  }
+
+  void track() {
     const auto begin = std::chrono::steady_clock::now();
-    const auto odometry =
-        pipeline::addMotion(scan, [this](std::int64_t stamp) { return odometry_.at(stamp); }, {});
-    if (!odometry) return;
-    const auto end = odometry_.at(scan.end());
-    if (end) scan.motion_noise = motion::sweepNoise(noise_, geometry::between(*odometry, *end), {});
-    const auto update = tracker_.update(scan, *odometry, {});
-    const std::chrono::duration<double, std::micro> spent =
-        std::chrono::steady_clock::now() - begin;
-    if (update) score(*update, *truth_.at(scan.stamp), spent.count());
+    while (const auto result = feed_.next(simulation_.time())) {
+      const auto& located = result->located;
+      if (!located || !located->T_odom_base) continue;
+      const auto update =
+          tracker_.update(located->scan, *located->T_odom_base, *located->T_base_sensor);
+      const std::chrono::duration<double, std::micro> spent =
+          std::chrono::steady_clock::now() - begin;
+      if (update) score(*update, *truth_.at(result->stamp), spent.count());
+    }
   }
 
   void score(const tracking::TrackerUpdate& update, const Pose2& truth, double microseconds) {
@@ -172,10 +186,10 @@ class Run {
   Pose2 start_{-2.0, 1.0, -1.5};
   std::mt19937_64 random_;
   simulation::Simulation simulation_;
-  motion::OdometryNoise noise_;
+  test::ScriptedTransforms transforms_;
+  pipeline::ScanFeed feed_;
   tracking::RoomTracker tracker_;
   motion::PoseHistory truth_;
-  motion::PoseHistory odometry_;
   bool slipped_ = false;
   Pose2 T_slip_;
   std::vector<Sample> samples_;
