@@ -13,12 +13,16 @@ namespace {
 
 using fitting::ArcFit;
 
-// Share of a run that the circle may leave unexplained.
-constexpr double kStrayShare = 0.2;
-// Standard deviation of the radius over the radius, at most.
-constexpr double kRadiusKnown = 0.5;
-constexpr double kArcParameters = 3.0;
-constexpr double kLineParameters = 2.0;
+struct ArcFinderConstants {
+  // Chosen, not measured: what a run may leave unexplained, and how well the radius has to be
+  // known.
+  double stray_ratio = 0.2;   // of the returns of a run
+  double radius_known = 0.5;  // standard deviation of the radius over the radius, at most
+  // Counted: each parameter costs the logarithm of the number of returns (Schwarz 1978).
+  double arc_parameters = 3.0;
+  double line_parameters = 2.0;
+};
+constexpr ArcFinderConstants kArcs{};
 
 bool overlaps(const Piece& piece, const Run& run, std::size_t revolution) {
   for (const std::size_t shift : {std::size_t{0}, revolution}) {
@@ -204,13 +208,13 @@ Eigen::Matrix3d ArcFinder::motionCovariance(const scan::Scan& scan, const BeamAr
 
 bool ArcFinder::isPlausible(const ArcFit& fit) const {
   const double sigma = std::sqrt(fit.covariance(2, 2));
-  if (fit.radius > config_.max_radius || sigma > kRadiusKnown * fit.radius) return false;
+  if (fit.radius > config_.max_radius || sigma > kArcs.radius_known * fit.radius) return false;
   const auto returns = static_cast<double>(fit.returns);
-  if (returns < (1.0 - kStrayShare) * static_cast<double>(observations_.returns.size())) {
+  if (returns < (1.0 - kArcs.stray_ratio) * static_cast<double>(observations_.returns.size())) {
     return false;
   }
   if (returns < config_.min_arc_beams) return false;
-  const double freedom = static_cast<double>(fit.observations()) - kArcParameters;
+  const double freedom = static_cast<double>(fit.observations()) - kArcs.arc_parameters;
   return fit.chi_square <=
          geometry::chiSquareLimit(config_.gate, freedom) * config_.misfit * config_.misfit;
 }
@@ -220,17 +224,17 @@ bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run&
   const double price = std::log(static_cast<double>(run.size()));
   const double arc = fit.chi_square +
                      gate_squared_ * static_cast<double>(run.size() - fit.returns) +
-                     kArcParameters * price;
+                     kArcs.arc_parameters * price;
   double lines = 0.0;
   double loose = static_cast<double>(run.size());
   for (const Piece& piece : pieces) {
     if (!runs_.isDoubtfulWall(piece.first) || !overlaps(piece, run, beams.revolution)) continue;
-    lines += piece.chi_square + (kLineParameters + 1.0) * price;
+    lines += piece.chi_square + (kArcs.line_parameters + 1.0) * price;
     loose -= piece.beams;
   }
   if (lines > 0.0) return arc < lines + gate_squared_ * std::max(0.0, loose) - price;
   // A line does not say where it ends, a circle does.
-  const double parameters = kLineParameters + static_cast<double>(fit.tangents);
+  const double parameters = kArcs.line_parameters + static_cast<double>(fit.tangents);
   lines = costOfLine(observations_.returns, gate_squared_) + parameters * price;
   // What is not seen to end on both sides may go on straight behind what hides it.
   return arc + (fit.tangents < 2 ? gate_squared_ : 0.0) < lines;

@@ -11,10 +11,14 @@ namespace sightline::lines {
 
 namespace {
 
-// Lines that meet at more than this are no chords of one curve [sine].
-constexpr double kMostBend = 0.75;
-// Noise alone does not part returns [σ].
-constexpr double kJump = 8.0;
+// Chosen: both are wide, as what passes is fitted and judged by its likelihood.
+struct ArcRunsConstants {
+  // Lines that meet at more than this are no chords of one curve [sine].
+  double most_bend = 0.75;
+  // Noise alone does not part returns [σ].
+  double jump = 8.0;
+};
+constexpr ArcRunsConstants kRuns{};
 
 // Sine of the turn from one line to the next.
 double bend(const Piece& before, const Piece& after) {
@@ -63,7 +67,7 @@ bool ArcRuns::isChord(const std::vector<Piece>& pieces, std::size_t i) const {
 }
 
 bool ArcRuns::mayBeChords(const Piece& before, const Piece& after) const {
-  if (std::abs(bend(before, after)) > kMostBend) return false;
+  if (std::abs(bend(before, after)) > kRuns.most_bend) return false;
   return !isJump(before.end - 1, after.first);
 }
 
@@ -148,7 +152,7 @@ bool ArcRuns::isJump(std::size_t from, std::size_t to) const {
   const double dy = y - value(beams_->y, from);
   const double across =
       std::abs(value(beams_->direction_x, from) * y - value(beams_->direction_y, from) * x);
-  const double noise = kJump * kJump * value(beams_->range_variance, to);
+  const double noise = kRuns.jump * kRuns.jump * value(beams_->range_variance, to);
   return dx * dx + dy * dy > 2.0 * config_.max_radius * across + noise;
 }
 

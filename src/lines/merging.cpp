@@ -60,7 +60,7 @@ Merging::Merging(const BeamArray& beams, SweepNoise& sweep_noise, const LineExtr
       sweep_noise_(sweep_noise),
       gap_(config),
       gate_(config.gate),
-      misfit_(config.misfit),
+      chi_square_ratio_(config.misfit),
       distance_limit_(geometry::chiSquareLimitOf2(config.gate)) {}
 
 bool Merging::mayBeOne(const Piece& before, const Piece& after, double position) const {
@@ -83,7 +83,8 @@ bool Merging::merge(Piece& before, const Piece& after) const {
   joined.beams = 0.0;  // to be refined in full
   stepTo(fusion(line, after.line, between), joined.line);
   if (!refine(beams_, gate_ * gate_, joined)) return false;
-  if (joined.chi_square > geometry::chiSquareLimit(gate_, joined.beams - 2.0) * misfit_ * misfit_)
+  if (joined.chi_square >
+      geometry::chiSquareLimit(gate_, joined.beams - 2.0) * chi_square_ratio_ * chi_square_ratio_)
     return false;
   before = joined;
   return true;

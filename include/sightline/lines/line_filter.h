@@ -53,7 +53,7 @@ class LineFilter {
   std::size_t countBridged(const Validation& validation, std::size_t next, std::size_t count) const;
   double motionNoise(std::size_t next) const;
   void update(NormalEquations fresh);
-  bool isYoung() const;
+  bool isDirectionUncertain() const;
   void relinearise();
   std::size_t lookAhead(std::size_t next, std::size_t end) const;
 

@@ -32,7 +32,7 @@ class Merging {
   SweepNoise& sweep_noise_;
   Gap gap_;
   double gate_;
-  double misfit_;
+  double chi_square_ratio_;
   double distance_limit_;
 };
 
