@@ -124,7 +124,9 @@ TEST(RoomMapInCode, IsCheckedAsTheFileIs) {
               map.addDoor(0, 1, {2.0, 0.0}, 9.0);
             }),
             "width: 9 m is wider than wall east of 'a', 3.000 m");
-  EXPECT_EQ(faultOf([](RoomMap& map) { map.addDoor(0, 2, {2.0, 0.0}, 0.9); }),
+  EXPECT_EQ(faultOf([](RoomMap& map) {
+              map.addDoor(0, 2, {2.0, 0.0}, 0.9);
+            }),
             "between: no such room");
   EXPECT_EQ(faultOf([](RoomMap& map) { map.setSpans({0, 4}, {}); }), ": no such wall");
   EXPECT_EQ(faultOf([](RoomMap& map) { map.addDoor(0, 1, {2.0, 0.0}, 0.9); }), "none");
