@@ -10,7 +10,8 @@ namespace {
 constexpr struct {
   // Most bins on either side of the prediction. The defaults need 26 and 41.
   int most_bins = 100;
-  // Share of its weight that a peak loses at the edge of a gate, by distance and by turn.
+  // Chosen, not measured: share of its weight that a peak loses at the edge of a gate, by distance
+  // and by turn.
   double distance_penalty = 0.5;
   double turn_penalty = 0.2;
 } kHough;
