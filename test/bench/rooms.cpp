@@ -122,14 +122,14 @@ class Run {
         random_(seed),
         simulation_(twoRooms(), robotConfig(), start_, seed),
         tracker_(config, world::RoomMap(config::Node::parse(kRooms, "two rooms"))) {
-    simulation_.addScanner(scannerProfile(scenario), {});
-    simulation_.follow(simulation::Path(config::Node::parse(kPath, "path")));
+    simulation_.carrier().addScanner(scannerProfile(scenario), {});
+    simulation_.carrier().follow(simulation::Path(config::Node::parse(kPath, "path")));
     tracker_.setPose({start_, Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal()});
   }
 
   std::vector<Sample> samples() {
     while (simulation_.time() < static_cast<std::int64_t>(kSeconds * 1e9)) {
-      auto finished = simulation_.step();
+      auto finished = simulation_.step().sweeps;
       truth_.add(simulation_.time(), simulation_.robot().T_map_base());
       odometry_.add(simulation_.time(), slip() * simulation_.robot().odometry().pose().mean);
       for (auto& sweep : finished) track(sweep.scan);

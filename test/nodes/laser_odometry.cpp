@@ -83,8 +83,8 @@ class Robot {
     profile.angle_min = geometry::radians(-120.0);
     profile.angle_max = geometry::radians(120.0);
     profile.rate = 10.0;
-    if (kind.is_person) simulation_.walk({});
-    simulation_.addScanner(profile, kind.mounting);
+    if (kind.is_person) simulation_.carrier().walk({});
+    simulation_.carrier().addScanner(profile, kind.mounting);
     static ros::Time next_start(1000, 0);
     start_ = next_start;
     next_start += ros::Duration(100000.0);
@@ -102,8 +102,8 @@ class Robot {
   // Drives until the next scan.
   scan::Scan nextScan() {
     while (true) {
-      simulation_.command({0.5, 0.25});
-      auto sweeps = simulation_.step();
+      simulation_.carrier().command({0.5, 0.25});
+      auto sweeps = simulation_.step().sweeps;
       if (sends_wheels) wheels_.publish(wheelMessage());
       if (sends_imu) imu_.publish(imuMessage());
       if (!sweeps.empty()) return sweeps.front().scan;
@@ -140,7 +140,7 @@ class Robot {
                              geometry::between(first_, bridge::toPose2(answer.pose.pose)));
   }
 
-  Pose2 truthAt(std::int64_t stamp) const { return simulation_.T_map_base(stamp); }
+  Pose2 truthAt(std::int64_t stamp) const { return simulation_.carrier().T_map_base(stamp); }
   std::size_t answers() const { return answers_.count(); }
 
   Pose2 truth;
@@ -161,7 +161,7 @@ class Robot {
     const Pose2 earlier = truthAt(time - simulation::Simulation::kStep);
     const double turned = geometry::between(earlier, truthAt(time)).theta();
     return bridge::toImuMessage(bridge::nanoseconds(now()), kind_.prefix + "base_link",
-                                simulation_.bodyMotion(time).attitude, turned / 0.005);
+                                simulation_.carrier().bodyMotion(time).attitude, turned / 0.005);
   }
 
   Kind kind_;
