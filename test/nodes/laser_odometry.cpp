@@ -103,10 +103,10 @@ class Robot {
   scan::Scan nextScan() {
     while (true) {
       simulation_.carrier().command({0.5, 0.25});
-      auto sweeps = simulation_.step().sweeps;
+      const simulation::Outputs outputs = simulation_.step();
       if (sends_wheels) wheels_.publish(wheelMessage());
-      if (sends_imu) imu_.publish(imuMessage());
-      if (!sweeps.empty()) return sweeps.front().scan;
+      if (sends_imu) imu_.publish(imuMessage(outputs.motions.front()));
+      if (!outputs.sweeps.empty()) return outputs.sweeps.front().scan;
     }
   }
 
@@ -156,12 +156,9 @@ class Robot {
         {truthAt(simulation_.time()), Eigen::Matrix3d::Zero()}, {});
   }
 
-  sensor_msgs::Imu imuMessage() const {
-    const auto time = simulation_.time();
-    const Pose2 earlier = truthAt(time - simulation::Simulation::kStep);
-    const double turned = geometry::between(earlier, truthAt(time)).theta();
+  sensor_msgs::Imu imuMessage(const simulation::ReportedMotion& motion) const {
     return bridge::toImuMessage(bridge::nanoseconds(now()), kind_.prefix + "base_link",
-                                simulation_.carrier().bodyMotion(time).attitude, turned / 0.005);
+                                motion.attitude, motion.turn_rate);
   }
 
   Kind kind_;
