@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include <Eigen/Geometry>
+#include "sightline/bridge/time.h"
 
 #include "sightline/bridge/time.h"
 
@@ -14,6 +14,17 @@ constexpr std::array<int, 3> kPlanar{0, 1, 5};  // x, y and yaw among the six
 
 Eigen::Matrix3d rotationOf(const geometry_msgs::Quaternion& q) {
   return Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+}
+
+geometry_msgs::TransformStamped transformMessage(const std::string& parent,
+                                                 const std::string& child, std::int64_t stamp,
+                                                 const geometry_msgs::Transform& transform) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = timeOf(stamp);
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform = transform;
+  return message;
 }
 
 double yawOf(const geometry_msgs::Quaternion& q) {
@@ -52,6 +63,27 @@ geometry_msgs::Transform toTransform(const geometry::Pose2& pose) {
   message.translation.y = pose.y();
   message.rotation = toQuaternion(pose.theta());
   return message;
+}
+
+geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
+                                                   const std::string& child, std::int64_t stamp,
+                                                   const geometry::Pose2& T_parent_child) {
+  return transformMessage(parent, child, stamp, toTransform(T_parent_child));
+}
+
+geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
+                                                   const std::string& child, std::int64_t stamp,
+                                                   const Eigen::Isometry3d& T_parent_child) {
+  const Eigen::Quaterniond rotation(T_parent_child.linear());
+  geometry_msgs::Transform transform;
+  transform.translation.x = T_parent_child.translation().x();
+  transform.translation.y = T_parent_child.translation().y();
+  transform.translation.z = T_parent_child.translation().z();
+  transform.rotation.x = rotation.x();
+  transform.rotation.y = rotation.y();
+  transform.rotation.z = rotation.z();
+  transform.rotation.w = rotation.w();
+  return transformMessage(parent, child, stamp, transform);
 }
 
 boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance) {

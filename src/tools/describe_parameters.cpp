@@ -52,12 +52,22 @@ int main() {
   const nodes::SyncScanDriverConfig driver;
   printTable("sync_scan_driver", "Parameters of the node.", describe(driver));
   printTable("sim_sensor", "Parameters of the node.", describe<nodes::SimSensorConfig>());
+  printTable(
+      "sim_sensor: robots",
+      "Parameters of one robot, below `~robots/NAME` of sim_sensor: NAME is the namespace of "
+      "its topics and the prefix of its frames. Without `~robots` there is one robot, and "
+      "these are the node's own.",
+      describe<nodes::SimRobotConfig>());
   printTable("sim_sensor: scanners",
-             "Parameters of one scanner, below `~scanners/NAME` of sim_sensor.",
+             "Parameters of one scanner, below `scanners/NAME` of its robot.",
              describe<nodes::SimScannerConfig>());
   printTable("sim_sensor: active sensors",
-             "Parameters of one sensor on a head, below `~active_sensors/NAME` of sim_sensor.",
+             "Parameters of one sensor on a head, below `active_sensors/NAME` of its robot.",
              describe<nodes::SimActiveSensorConfig>());
+  printTable("sim_sensor: movers",
+             "Parameters of one thing that moves through the world, below `~movers/NAME` of "
+             "sim_sensor.",
+             describe<nodes::SimMoverConfig>());
   printTable("Active sensor profiles",
              "The files of `config/sensors` for synchronised-scan sensors, real or simulated.",
              describe<sightline::simulation::ActiveSensorProfile>());

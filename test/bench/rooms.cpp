@@ -119,14 +119,14 @@ class Run {
         tracker_(config, twoRooms()) {
     transforms_.mount("", Pose2());
     feed_.addScanner();
-    simulation_.addScanner(scannerProfile(scenario), {});
-    simulation_.follow(simulation::Path(config::Node::parse(kPath, "path")));
+    simulation_.carrier().addScanner(scannerProfile(scenario), {});
+    simulation_.carrier().follow(simulation::Path(config::Node::parse(kPath, "path")));
     tracker_.setPose({start_, Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal()});
   }
 
   std::vector<Sample> samples() {
     while (simulation_.time() < static_cast<std::int64_t>(kSeconds * 1e9)) {
-      auto finished = simulation_.step();
+      auto finished = simulation_.step().sweeps;
       truth_.add(simulation_.time(), simulation_.robot().T_map_base());
       transforms_.drive(simulation_.time(), slip() * simulation_.robot().odometry().pose().mean);
       for (auto& sweep : finished) take(sweep.scan);

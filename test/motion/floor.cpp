@@ -162,21 +162,22 @@ Calls walk(bool nods, std::uint64_t seed) {
   simulation::RobotConfig robot;
   robot.max_speed = 1.3;
   simulation::Simulation simulation(world, robot, Pose2(), seed);
-  if (nods) simulation.walk({});
-  simulation.addScanner(profile(), atBreastHeight());
+  if (nods) simulation.carrier().walk({});
+  simulation.carrier().addScanner(profile(), atBreastHeight());
   FloorFinder finder(FloorConfig{});
   Calls calls;
   while (simulation.robot().T_map_base().x() < 15.0) {
-    simulation.command({1.3, 0.0});
-    for (const auto& [index, scan] : simulation.step()) {
-      const Pose2 T_map_sensor = simulation.T_map_base(scan.stamp);
+    simulation.carrier().command({1.3, 0.0});
+    for (const auto& [robot_index, scanner, scan] : simulation.step().sweeps) {
+      const Pose2 T_map_sensor = simulation.carrier().T_map_base(scan.stamp);
       const auto found = finder.find(scan, T_map_sensor);
       finder.remember(scan, T_map_sensor);
       for (std::size_t i = 0; i < scan.beams(); ++i) {
         const auto time = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets()[i]);
-        const Eigen::Isometry3d T_map_scanner = simulation::inSpace(simulation.T_map_base(time)) *
-                                                simulation.bodyMotion(time).outOfPlane(1.2) *
-                                                Eigen::Translation3d(0.0, 0.0, 1.2);
+        const Eigen::Isometry3d T_map_scanner =
+            simulation::inSpace(simulation.carrier().T_map_base(time)) *
+            simulation.carrier().bodyMotion(time).outOfPlane(1.2) *
+            Eigen::Translation3d(0.0, 0.0, 1.2);
         const Eigen::Vector3d ray(scan.geometry()->cosines()[i], scan.geometry()->sines()[i], 0.0);
         const auto hit = world.cast({T_map_scanner.translation(), T_map_scanner.linear() * ray});
         const bool is_floor = hit && !hit->segment && scan.isValid(i);

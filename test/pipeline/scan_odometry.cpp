@@ -37,7 +37,7 @@ world::World room() {
 class Walk {
  public:
   explicit Walk(bool nods = false) : simulation_(room(), {}, Pose2(-2.0, -1.0, 0.2), 3) {
-    if (nods) simulation_.walk({});
+    if (nods) simulation_.carrier().walk({});
     simulation::ScannerProfile profile;
     profile.beams = 361;
     profile.angle_min = radians(-90.0);
@@ -45,7 +45,7 @@ class Walk {
     profile.rate = 10.0;
     simulation::Mounting mounting;
     mounting.z = 1.2;
-    simulation_.addScanner(profile, mounting);
+    simulation_.carrier().addScanner(profile, mounting);
   }
 
   const simulation::Simulation& simulation() const { return simulation_; }
@@ -53,19 +53,20 @@ class Walk {
   template <class Take>
   void run(double seconds, const Take& take) {
     while (1e-9 * static_cast<double>(simulation_.time()) < seconds) {
-      simulation_.command({0.5, 0.25});
-      auto sweeps = simulation_.step();
+      simulation_.carrier().command({0.5, 0.25});
+      auto sweeps = simulation_.step().sweeps;
       wheels_.add(simulation_.time(), simulation_.robot().odometry().pose().mean);
       for (auto& sweep : sweeps) take(sweep.scan);
     }
   }
 
   std::optional<Pose2> wheelsAt(std::int64_t stamp) const { return wheels_.at(stamp); }
-  Pose2 truthAt(std::int64_t stamp) const { return simulation_.T_map_base(stamp); }
+  Pose2 truthAt(std::int64_t stamp) const { return simulation_.carrier().T_map_base(stamp); }
 
   motion::SweepAttitude attitudeOf(const scan::Scan& scan) const {
     const auto end = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets().back());
-    return {simulation_.bodyMotion(scan.stamp).attitude, simulation_.bodyMotion(end).attitude};
+    return {simulation_.carrier().bodyMotion(scan.stamp).attitude,
+            simulation_.carrier().bodyMotion(end).attitude};
   }
 
  private:

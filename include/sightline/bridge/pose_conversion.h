@@ -22,6 +22,14 @@ geometry_msgs::Pose toPose(const geometry::Pose2& pose);
 geometry_msgs::Transform toTransform(const geometry::Pose2& pose);
 geometry_msgs::Quaternion toQuaternion(double yaw);
 
+/// What tf is told: where the frame `child` is in `parent` at a time [ns].
+geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
+                                                   const std::string& child, std::int64_t stamp,
+                                                   const geometry::Pose2& T_parent_child);
+geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
+                                                   const std::string& child, std::int64_t stamp,
+                                                   const Eigen::Isometry3d& T_parent_child);
+
 /// Covariance of (x, y, yaw) in the 6x6 of ROS, row-major at [0] [7] [35], cross terms filled, the
 /// rest zero.
 boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance);

@@ -45,7 +45,7 @@ class BodyWornWalk {
       : building_(building),
         simulation_(building.world, person(), start(), seed),
         odometry_(profileOfCarrier(), floorOfCarrier()) {
-    simulation_.walk({});
+    simulation_.carrier().walk({});
     simulation::ScannerProfile scanner;
     scanner.beams = 361;
     scanner.angle_min = geometry::radians(-90.0);
@@ -57,17 +57,17 @@ class BodyWornWalk {
     scanner.noise.sigma = 0.01;
     simulation::Mounting mounting;
     mounting.z = kHeight;
-    simulation_.addScanner(scanner, mounting);
+    simulation_.carrier().addScanner(scanner, mounting);
     simulation::Path path;
     path.speed = simulation::GaitConfig().speed;
     path.turn_rate = geometry::radians(200.0);
     path.waypoints_map = building.way;
-    simulation_.follow(path);
+    simulation_.carrier().follow(path);
   }
 
   void run(BodyWornScore& score) {
     while (!hasArrived()) {
-      for (const auto& sweep : simulation_.step()) take(sweep.scan, score);
+      for (const auto& sweep : simulation_.step().sweeps) take(sweep.scan, score);
       way_ += simulation_.robot().velocity().linear * 1e-9 * simulation::Simulation::kStep;
     }
     const geometry::Pose2 error = geometry::between(truth_, estimate_);
@@ -120,7 +120,7 @@ class BodyWornWalk {
   }
 
   void take(const scan::Scan& scan, BodyWornScore& score) {
-    const Pose2 truth = simulation_.T_map_base(scan.stamp);
+    const Pose2 truth = simulation_.carrier().T_map_base(scan.stamp);
     const auto update = odometry_.update(located(scan));
     ++score.scans;
     countFloor(scan, score);
@@ -146,9 +146,10 @@ class BodyWornWalk {
 
   bool endsOnFloor(const scan::Scan& scan, std::size_t beam) const {
     const auto time = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets()[beam]);
-    const Eigen::Isometry3d T_map_sensor = simulation::inSpace(simulation_.T_map_base(time)) *
-                                           simulation_.bodyMotion(time).outOfPlane(kHeight) *
-                                           Eigen::Translation3d(0.0, 0.0, kHeight);
+    const Eigen::Isometry3d T_map_sensor =
+        simulation::inSpace(simulation_.carrier().T_map_base(time)) *
+        simulation_.carrier().bodyMotion(time).outOfPlane(kHeight) *
+        Eigen::Translation3d(0.0, 0.0, kHeight);
     const Eigen::Vector3d direction(scan.geometry()->cosines()[beam],
                                     scan.geometry()->sines()[beam], 0.0);
     const auto hit =

@@ -30,11 +30,11 @@ inline std::vector<scan::Scan> tourOfTheFloor(std::size_t scans) {
   profile.rate = 10.0;
   simulation::Mounting mounting;
   mounting.z = 0.4;
-  simulation.addScanner(profile, mounting);
-  simulation.follow(simulation::Path::readFile(source + "/config/paths/floor_tour.yaml"));
+  simulation.carrier().addScanner(profile, mounting);
+  simulation.carrier().follow(simulation::Path::readFile(source + "/config/paths/floor_tour.yaml"));
   std::vector<scan::Scan> tour;
   while (tour.size() < scans) {
-    for (auto& sweep : simulation.step()) tour.push_back(std::move(sweep.scan));
+    for (auto& sweep : simulation.step().sweeps) tour.push_back(std::move(sweep.scan));
   }
   return tour;
 }

@@ -6,7 +6,7 @@
 #include "sightline/motion/head_command.h"
 #include "sightline/triangulation/ranger.h"
 
-namespace sightline::driver {
+namespace sightline::simulation {
 
 /// What a device measures, and how its head turns: to be given to an emulated device.
 class DeviceModel {
@@ -20,4 +20,4 @@ class DeviceModel {
   virtual bool command(const motion::HeadCommand& command) = 0;
 };
 
-}  // namespace sightline::driver
+}  // namespace sightline::simulation
