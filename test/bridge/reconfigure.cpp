@@ -13,26 +13,13 @@ namespace {
 
 // What a field list says of its numbers, under the names of dynamic_reconfigure: a dot becomes an
 // underscore.
-class Numbers : public config::FieldVisitor {
+class Numbers : public config::FieldObserver {
  public:
   struct Entry {
     std::string name;
     double value;
     config::Range range;
   };
-
-  void number(const char* name, double& value, const config::Field& field) override {
-    entries.push_back({prefix_ + name, value, field.range});
-  }
-  void integer(const char* name, int& value, const config::Field& field) override {
-    entries.push_back({prefix_ + name, static_cast<double>(value), field.range});
-  }
-  void flag(const char*, bool&, const char*) override {}
-  void text(const char*, std::string&, const char*) override {}
-  void numbers(const char*, std::vector<double>&, const config::Field&) override {}
-  void option(const char*, std::size_t&, const std::vector<const char*>&, const char*) override {}
-  void enter(const char* group) override { prefix_ = std::string(group) + "_"; }
-  void leave() override { prefix_.clear(); }
 
   const Entry* find(const std::string& name) const {
     const auto found = std::find_if(entries.begin(), entries.end(),
@@ -43,6 +30,16 @@ class Numbers : public config::FieldVisitor {
   std::vector<Entry> entries;
 
  private:
+  void value(const char* name, const config::Value& value, const config::Field& field) override {
+    if (const auto* number = std::get_if<double>(&value)) add(name, *number, field);
+    if (const auto* number = std::get_if<int>(&value)) add(name, *number, field);
+  }
+  void add(const char* name, double number, const config::Field& field) {
+    entries.push_back({prefix_ + name, number, field.range});
+  }
+  void enter(const char* group) override { prefix_ = std::string(group) + "_"; }
+  void leave() override { prefix_.clear(); }
+
   std::string prefix_;
 };
 
@@ -67,7 +64,7 @@ dynamic_reconfigure::Config messageOf(const Settings& settings) {
 template <class Settings, class Config>
 void expectCfgToFollow(Config config) {
   Numbers fields;
-  config.visit(fields);
+  fields.observe(config);
   const auto defaults = messageOf(Settings::__getDefault__());
   const auto least = messageOf(Settings::__getMin__());
   const auto most = messageOf(Settings::__getMax__());
