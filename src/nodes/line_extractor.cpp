@@ -87,9 +87,9 @@ LineExtractorNode::LineExtractorNode(ros::NodeHandle node, ros::NodeHandle priva
 }
 
 void LineExtractorNode::onReconfigure(const LineExtractorConfig& settings) {
-  const auto config = bridge::fromReconfigure(settings);
-  extractor_ = lines::LineExtractor(config);
-  plain_extractor_ = lines::PlainExtractor(config);
+  bridge::applyReconfigure(settings, config_.lines);
+  extractor_ = lines::LineExtractor(config_.lines);
+  plain_extractor_ = lines::PlainExtractor(config_.lines);
 }
 
 void LineExtractorNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {

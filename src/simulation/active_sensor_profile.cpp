@@ -35,11 +35,12 @@ void ActiveSensorProfile::visit(config::FieldVisitor& visitor) {
   visitor.group("head", head);
   visitor.group("optics", optics);
   visitor.number("bandwidth", bandwidth,
-                 {"Hz", config::kNotNegative,
+                 {"Hz",
+                  {0.0, 1e7},
                   "of the detector (pears table 1: 1 kHz), which makes neighbours share some of "
                   "their light and noise; 0: none, as in pears eq. 2"});
   visitor.group("rig", rig);
-  visitor.text("calibration", calibration,
+  visitor.path("calibration", calibration,
                "path of a calibration file, relative to this one; empty: the table that a sensor "
                "with these parameters fills");
 }
@@ -49,7 +50,6 @@ ActiveSensorProfile ActiveSensorProfile::readFile(const std::string& path) {
   ActiveSensorProfile profile;
   config::read(document, profile);
   profile.check(path);
-  if (!profile.calibration.empty()) profile.calibration = document.at("calibration").path();
   return profile;
 }
 

@@ -1,5 +1,4 @@
 // Calibrates a triangulation sensor from a recording, or from one that a simulated rig makes.
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -21,18 +20,9 @@ using triangulation::ParameterEstimate;
 struct Job {
   std::string sensor;
   std::optional<std::string> recording;  // either this
-  std::optional<std::string> seed;       // or this
+  std::optional<std::uint64_t> seed;     // or this
   std::string out;
 };
-
-std::uint64_t seedOf(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) {
-    throw tools::UsageError("--simulate needs a whole number, not '" + text + "'");
-  }
-  return seed;
-}
 
 void writeFile(const std::filesystem::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
@@ -158,7 +148,7 @@ triangulation::CalibrationRecording recordingOf(const Job& job,
   if (job.recording) {
     return triangulation::readRecording(config::CsvTable::readFile(*job.recording), profile.sensor);
   }
-  return recordCalibration(profile.sensor, profile.optics, profile.rig, seedOf(*job.seed));
+  return recordCalibration(profile.sensor, profile.optics, profile.rig, *job.seed);
 }
 
 int calibrate(const Job& job) {

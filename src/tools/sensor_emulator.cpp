@@ -32,7 +32,7 @@ struct Job {
   std::optional<std::string> urdf;
   std::optional<std::string> faults;
   std::array<double, 3> pose{0.0, 0.0, 0.0};
-  double seed = 1.0;
+  std::uint64_t seed = 1;
 };
 
 // What has come on standard input so far, line by line.
@@ -104,16 +104,7 @@ void obey(simulation::EmulatedDevice& device, simulation::DeviceFaults& faults, 
   }
 }
 
-// Beyond 2^53 not every whole number has a double.
-std::uint64_t seedOf(const Job& job) {
-  if (job.seed >= 0.0 && job.seed <= 9007199254740992.0 && job.seed == std::floor(job.seed)) {
-    return static_cast<std::uint64_t>(job.seed);
-  }
-  throw tools::UsageError("--seed needs a whole number from 0 to 2^53");
-}
-
 int emulate(const Job& job, int signals) {
-  const std::uint64_t seed = seedOf(job);
   auto profile = job.profile ? simulation::ActiveSensorProfile::readFile(*job.profile)
                              : simulation::ActiveSensorProfile{};
   if (job.urdf) profile.takeHead(driver::HeadJoint::readFile(*job.urdf, {}), *job.urdf);
@@ -121,8 +112,8 @@ int emulate(const Job& job, int signals) {
   simulation::EmulatedDevice device(
       job.port, simulation::firmwareOf(profile),
       std::make_unique<simulation::ActiveSensorDevice>(profile, world::World::readFile(job.world),
-                                                       simulation::inSpace(pose), seed),
-      seed);
+                                                       simulation::inSpace(pose), job.seed),
+      job.seed);
   simulation::DeviceFaults faults(device);
   if (job.faults) faults.apply(*job.faults, "--faults");
   obey(device, faults, signals);

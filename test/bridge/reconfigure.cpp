@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include <dynamic_reconfigure/ConfigDescription.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include "round_trip.h"
 #include "sightline/bridge/line_settings.h"
 #include "sightline/bridge/tracker_settings.h"
 #include "sightline/config/fields.h"
@@ -86,19 +88,34 @@ TEST(Reconfigure, CfgOfTheRoomTrackerFollowsItsFieldList) {
   expectCfgToFollow<RoomTrackerConfig>(tracking::TrackerConfig());
 }
 
+// Every setting there and back: those of cfg/ arrive, each in its own place, and the others stay.
+template <class Settings, class Config>
+void expectRoundTrip() {
+  const auto sent = test::settingsOf(test::changed(Config()));
+  const auto settings = toReconfigure(test::changed(Config()));
+  Config config;
+  applyReconfigure(settings, config);
+  std::set<std::string> held;
+  for (const auto& description : Settings::__getParamDescriptions__()) {
+    held.insert(description->name);
+  }
+  auto kept = test::settingsOf(Config());
+  for (const auto& [name, value] : test::settingsOf(config)) {
+    std::string setting = name;
+    std::replace(setting.begin(), setting.end(), '.', '_');
+    const bool is_held = held.erase(setting) > 0;
+    EXPECT_EQ(value, is_held ? sent.at(name) : kept.at(name)) << name;
+    EXPECT_NE(sent.at(name), kept.at(name)) << name;
+  }
+  EXPECT_TRUE(held.empty()) << *held.begin() << " is no field";
+}
+
+TEST(Reconfigure, LineSettingsGoThereAndBack) {
+  expectRoundTrip<LineExtractorConfig, lines::LineExtractorConfig>();
+}
+
 TEST(Reconfigure, TrackerSettingsGoThereAndBack) {
-  tracking::TrackerConfig config;
-  config.gate.sigmas = 4.0;
-  config.wall.min_beams = 17;
-  config.slip.min_quality = 0.25;
-  config.odometry.scale_mean = 1.3;
-  const auto settings = toReconfigure(config);
-  tracking::TrackerConfig other;
-  applyReconfigure(settings, other);
-  EXPECT_EQ(other.gate.sigmas, 4.0);
-  EXPECT_EQ(other.wall.min_beams, 17);
-  EXPECT_EQ(other.slip.min_quality, 0.25);
-  EXPECT_EQ(other.odometry.scale_mean, 1.0) << "what cfg/ does not hold stays";
+  expectRoundTrip<RoomTrackerConfig, tracking::TrackerConfig>();
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "program.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -13,6 +14,18 @@ std::string faultOfNumber(const std::string& text) {
   double number = 0.0;
   if (CLI::detail::lexical_cast(text, number) && std::isfinite(number)) return "";
   return "needs a number, not '" + text + "'";
+}
+
+std::optional<std::uint64_t> wholeNumber(const std::string& text) {
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, number);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return number;
+}
+
+std::string faultOfWholeNumber(const std::string& text) {
+  return wholeNumber(text) ? "" : "needs a whole number, not '" + text + "'";
 }
 
 }  // namespace
@@ -47,6 +60,22 @@ void Program::flag(const std::string& name, bool& value, const std::string& mean
 void Program::option(const std::string& name, double& value, const std::string& unit,
                      const std::string& meaning) {
   app_->add_option(name, value, meaning)->check(faultOfNumber)->type_name(unit);
+}
+
+void Program::option(const std::string& name, std::uint64_t& value, const std::string& unit,
+                     const std::string& meaning) {
+  const auto set = [&value](const std::string& text) { value = *wholeNumber(text); };
+  app_->add_option_function<std::string>(name, set, meaning)
+      ->check(faultOfWholeNumber)
+      ->type_name(unit);
+}
+
+void Program::option(const std::string& name, std::optional<std::uint64_t>& value,
+                     const std::string& unit, const std::string& meaning) {
+  const auto set = [&value](const std::string& text) { value = wholeNumber(text); };
+  app_->add_option_function<std::string>(name, set, meaning)
+      ->check(faultOfWholeNumber)
+      ->type_name(unit);
 }
 
 void Program::option(const std::string& name, std::array<double, 3>& values,

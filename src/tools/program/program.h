@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -37,6 +38,11 @@ class Program {
 
   /// Options with a value; `unit` stands for the value in the help.
   void option(const std::string& name, double& value, const std::string& unit,
+              const std::string& meaning);
+  /// A whole number, 0 or more, in decimal digits.
+  void option(const std::string& name, std::uint64_t& value, const std::string& unit,
+              const std::string& meaning);
+  void option(const std::string& name, std::optional<std::uint64_t>& value, const std::string& unit,
               const std::string& meaning);
   void option(const std::string& name, std::array<double, 3>& values, const std::string& units,
               const std::string& meaning);
