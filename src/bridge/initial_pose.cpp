@@ -12,7 +12,7 @@ namespace sightline::bridge {
 
 namespace {
 
-Eigen::Matrix3d diagonalCovariance(const std::vector<double>& sigma) {
+Eigen::Matrix3d diagonalCovariance(const std::array<double, 2>& sigma) {
   const double position = sigma[0] * sigma[0];
   return Eigen::Vector3d(position, position, sigma[1] * sigma[1]).asDiagonal();
 }
@@ -37,7 +37,7 @@ void checkCovariance(const Eigen::Matrix3d& covariance) {
 
 geometry::UncertainPose2 readInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message,
                                          const std::string& map_frame,
-                                         const std::vector<double>& sigma) {
+                                         const std::array<double, 2>& sigma) {
   if (withoutSlash(message.header.frame_id) != map_frame) {
     throw BadMessage(
         fmt::format("in frame '{}' instead of '{}'", message.header.frame_id, map_frame));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -42,6 +43,12 @@ class DocumentStarts : public YAML::EventHandler {
   int line_ = 0;
 };
 
+std::string withHome(const std::string& path) {
+  const char* const home = std::getenv("HOME");
+  const bool below_home = path == "~" || path.rfind("~/", 0) == 0;
+  return home && below_home ? home + path.substr(1) : path;
+}
+
 void refuseSecondDocument(const std::string& text, const std::string& source) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
@@ -54,17 +61,12 @@ void refuseSecondDocument(const std::string& text, const std::string& source) {
 
 }  // namespace
 
-std::string Range::text() const {
-  const Range everything;
-  if (min == everything.min && max == everything.max) return "any";
-  if (max < kPositive.max) return fmt::format("[{}, {}]", min, max);
-  return min == kPositive.min ? "> 0" : fmt::format(">= {}", min);
-}
-
 Node& Node::operator=(const Node& other) {
   yaml_.reset(other.yaml_);
   source_ = other.source_;
   key_ = other.key_;
+  folder_ = other.folder_;
+  line_ = other.line_;
   return *this;
 }
 
@@ -75,7 +77,9 @@ Node Node::readFile(const std::string& path) {
 Node Node::parse(const std::string& text, const std::string& source) {
   try {
     refuseSecondDocument(text, source);
-    return Node(YAML::Load(text), source);
+    Node node(YAML::Load(text), source);
+    node.folder_ = std::filesystem::path(source).parent_path().string();
+    return node;
   } catch (const YAML::Exception& error) {
     const int line = error.mark.is_null() ? 0 : error.mark.line + 1;
     throw Error(source, line, "", "not YAML: " + error.msg);
@@ -90,8 +94,24 @@ bool Node::isNull() const {
   return yaml_.IsNull();
 }
 
+bool Node::isList() const {
+  return yaml_.IsSequence() || (yaml_.IsScalar() && yaml_.Scalar().rfind('[', 0) == 0);
+}
+
+bool Node::isEmpty() const {
+  if (isNull() || (yaml_.IsScalar() && yaml_.Scalar().empty())) return true;
+  return isList() && items().empty();
+}
+
+Node Node::place(const std::string& key, const YAML::Node& value) const {
+  Node node = *this;
+  node.yaml_.reset(value);
+  node.key_ = key;
+  return node;
+}
+
 Node Node::child(const std::string& key, const YAML::Node& value) const {
-  return {value, source_, key_.empty() ? key : key_ + "." + key};
+  return place(key_.empty() ? key : key_ + "." + key, value);
 }
 
 bool Node::has(const std::string& key) const {
@@ -115,18 +135,32 @@ std::vector<std::pair<std::string, Node>> Node::entries() const {
   std::vector<std::pair<std::string, Node>> entries;
   std::set<std::string> keys;
   for (const auto& entry : yaml_) {
-    const auto key = Node(entry.first, source_, key_).text();
+    const auto key = place(key_, entry.first).text();
     entries.emplace_back(key, child(key, entry.second));
     if (!keys.insert(key).second) entries.back().second.fail("given twice");
   }
   return entries;
 }
 
+Node Node::sequence() const {
+  if (yaml_.IsSequence()) return *this;
+  if (!isList()) fail("expected a sequence");
+  Node node = *this;
+  node.line_ = line();
+  try {
+    node.yaml_.reset(YAML::Load(yaml_.Scalar()));
+  } catch (const YAML::Exception&) {
+    fail(fmt::format("expected a sequence, found '{}'", yaml_.Scalar()));
+  }
+  if (!node.yaml_.IsSequence()) fail("expected a sequence");
+  return node;
+}
+
 std::vector<Node> Node::items() const {
-  if (!yaml_.IsSequence()) fail("expected a sequence");
+  const Node list = sequence();
   std::vector<Node> items;
-  for (std::size_t i = 0; i < yaml_.size(); ++i) {
-    items.emplace_back(yaml_[i], source_, fmt::format("{}[{}]", key_, i));
+  for (std::size_t i = 0; i < list.yaml_.size(); ++i) {
+    items.push_back(list.place(fmt::format("{}[{}]", key_, i), list.yaml_[i]));
   }
   return items;
 }
@@ -163,11 +197,36 @@ int Node::integer(Range range) const {
 }
 
 bool Node::flag() const {
+  if (yaml_.IsScalar() && (yaml_.Scalar() == "1" || yaml_.Scalar() == "0")) {
+    return yaml_.Scalar() == "1";
+  }
   return as<bool>("true or false");
 }
 
 std::string Node::text() const {
   return as<std::string>("a text");
+}
+
+std::size_t Node::choice(const std::vector<const char*>& words) const {
+  const std::string chosen = text();
+  const auto found = std::find(words.begin(), words.end(), chosen);
+  if (found == words.end()) {
+    fail(fmt::format("'{}' is none of: {}", chosen, fmt::join(words, ", ")));
+  }
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+std::vector<std::string> Node::texts() const {
+  std::vector<std::string> texts;
+  if (yaml_.IsScalar() && !isList()) {
+    std::string words = text();
+    std::replace(words.begin(), words.end(), ',', ' ');
+    std::istringstream stream(words);
+    for (std::string word; stream >> word;) texts.push_back(word);
+    return texts;
+  }
+  for (const Node& item : items()) texts.push_back(item.text());
+  return texts;
 }
 
 std::vector<double> Node::numbers(Range range) const {
@@ -187,6 +246,12 @@ std::vector<double> Node::numbers(std::size_t count, Range range) const {
   return values;
 }
 
+geometry::Pose2 Node::pose(Range range) const {
+  if (!isList() || items().size() != 3) fail("expected a pose: [x, y, yaw] in m, m, rad");
+  const auto values = numbers(range);
+  return {values[0], values[1], values[2]};
+}
+
 double Node::numberOr(const std::string& key, double fallback, Range range) const {
   return has(key) ? at(key).number(range) : fallback;
 }
@@ -195,16 +260,23 @@ std::string Node::textOr(const std::string& key, const std::string& fallback) co
   return has(key) ? at(key).text() : fallback;
 }
 
-void Node::fail(const std::string& reason) const {
+int Node::line() const {
+  if (line_ > 0) return line_;
   // Nodes that do not come from a text carry a null mark.
   const YAML::Mark mark = yaml_.IsDefined() ? yaml_.Mark() : YAML::Mark::null_mark();
-  throw Error(source_, mark.is_null() ? 0 : mark.line + 1, key_, reason);
+  return mark.is_null() ? 0 : mark.line + 1;
+}
+
+void Node::fail(const std::string& reason) const {
+  throw Error(source_, line(), key_, reason);
 }
 
 std::string Node::path() const {
-  const std::filesystem::path written = text();
-  if (written.is_absolute()) return written.string();
-  return (std::filesystem::path(source_).parent_path() / written).lexically_normal().string();
+  const std::string written = text();
+  if (written.empty()) return written;
+  const std::filesystem::path path = withHome(written);
+  if (path.is_absolute()) return path.string();
+  return (std::filesystem::path(folder_) / path).lexically_normal().string();
 }
 
 }  // namespace sightline::config

@@ -1,8 +1,37 @@
 #include "sightline/config/yaml_writer.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include <fmt/format.h>
 
 namespace sightline::config {
+
+namespace {
+
+struct YamlText {
+  template <class Item>
+  std::string operator()(const Item& item) const {
+    return fmt::format("{}", item);
+  }
+  std::string operator()(const std::string& text) const { return yamlQuoted(text); }
+  template <class Item>
+  std::string operator()(const std::vector<Item>& items) const {
+    std::string list;
+    for (const Item& item : items) list += (list.empty() ? "" : ", ") + (*this)(item);
+    return "[" + list + "]";
+  }
+};
+
+// A name of a map, which may be any text, as a key.
+std::string yamlKey(const std::string& name) {
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_';
+  });
+  return plain ? name : yamlQuoted(name);
+}
+
+}  // namespace
 
 std::string yamlQuoted(const std::string& text) {
   YAML::Emitter emitter;
@@ -12,39 +41,15 @@ std::string yamlQuoted(const std::string& text) {
 
 namespace detail {
 
-void YamlWriter::line(const char* name, const std::string& value, const std::string& comment) {
-  const std::string entry = fmt::format("{:{}}{}: {}", "", 2 * depth_, name, value);
-  yaml += fmt::format("{:<40} # {}\n", entry, comment);
-}
-
-void YamlWriter::number(const char* name, double& value, const Field& field) {
-  line(name, fmt::format("{}", value), fmt::format("{}, {}", field.unit, field.meaning));
-}
-
-void YamlWriter::integer(const char* name, int& value, const Field& field) {
-  line(name, fmt::format("{}", value), fmt::format("{}, {}", field.unit, field.meaning));
-}
-
-void YamlWriter::flag(const char* name, bool& value, const char* meaning) {
-  line(name, value ? "true" : "false", meaning);
-}
-
-void YamlWriter::text(const char* name, std::string& value, const char* meaning) {
-  line(name, yamlQuoted(value), meaning);
-}
-
-void YamlWriter::numbers(const char* name, std::vector<double>& values, const Field& field) {
-  line(name, fmt::format("[{}]", fmt::join(values, ", ")),
-       fmt::format("{}, {}", field.unit, field.meaning));
-}
-
-void YamlWriter::option(const char* name, std::size_t& index,
-                        const std::vector<const char*>& options, const char* meaning) {
-  line(name, options[index], meaning);
+void YamlWriter::value(const char* name, const Value& value, const Field& field) {
+  const std::string indent(2 * depth_, ' ');
+  const std::string entry = indent + yamlKey(name) + ": " + std::visit(YamlText(), value);
+  const std::string unit = field.unit == std::string("-") ? "" : fmt::format("{}, ", field.unit);
+  yaml += fmt::format("{:<40} # {}{}\n", entry, unit, field.meaning);
 }
 
 void YamlWriter::enter(const char* group) {
-  yaml += fmt::format("{:{}}{}:\n", "", 2 * depth_, group);
+  yaml += std::string(2 * depth_, ' ') + yamlKey(group) + ":\n";
   ++depth_;
 }
 

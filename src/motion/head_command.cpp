@@ -30,8 +30,8 @@ void HeadLimits::visit(config::FieldVisitor& visitor) {
   const config::Range turn{-geometry::kPi, geometry::kPi};
   visitor.number("lower", lower, {"rad", turn, "limit of the head's joint, clockwise"});
   visitor.number("upper", upper, {"rad", turn, "limit of the head's joint, counter-clockwise"});
-  visitor.number("max_rate", max_rate, {"rad/s", config::kPositive, "of the head"});
-  visitor.number("acceleration", acceleration, {"rad/s^2", config::kPositive, "of the head"});
+  visitor.number("max_rate", max_rate, {"rad/s", {1e-3, 1e3}, "of the head"});
+  visitor.number("acceleration", acceleration, {"rad/s^2", {1e-3, 1e6}, "of the head"});
   visitor.number("resolution", resolution,
                  {"rad", {1e-6, 0.1}, "of commanded and reported positions (pears table 1)"});
 }

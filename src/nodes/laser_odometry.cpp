@@ -37,7 +37,6 @@ OdometrySource sourceOf(const LaserOdometryNodeConfig& config, const ros::NodeHa
 LaserOdometryNodeConfig readLaserOdometryConfig(const ros::NodeHandle& node,
                                                 const ros::NodeHandle& private_node) {
   auto config = bridge::readParameters<LaserOdometryNodeConfig>(private_node);
-  config.topics.finish();
   config.topics.input.feed.odometry_source = sourceOf(config, node);
   return config;
 }

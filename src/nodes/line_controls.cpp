@@ -9,7 +9,7 @@ LineControls::LineControls(ros::NodeHandle private_node, const pipeline::LinesCo
     : config_(config), reconfigure_(reconfigure_mutex_, ros::NodeHandle(private_node, "lines")) {
   reconfigure_.updateConfig(bridge::toReconfigure(config_.extractor));
   reconfigure_.setCallback([this, &estimators](LineExtractorConfig& settings, std::uint32_t) {
-    config_.extractor = bridge::fromReconfigure(settings);
+    bridge::applyReconfigure(settings, config_.extractor);
     estimators.configureLines(config_);
   });
 }

@@ -24,7 +24,6 @@ pipeline::EstimatorsConfig estimatorsOf(const LineExtractorNodeConfig& config) {
 
 LineExtractorNodeConfig readLineExtractorConfig(const ros::NodeHandle& private_node) {
   auto config = bridge::readParameters<LineExtractorNodeConfig>(private_node);
-  config.topics.finish();
   if (!config.fixed_frame.empty()) config.topics.frames.odom = config.fixed_frame;
   return config;
 }

@@ -22,8 +22,9 @@ pipeline::EstimatorsConfig estimatorsOf(const RoomTrackerNodeConfig& config) {
 
 RoomTrackerNodeConfig readRoomTrackerConfig(const ros::NodeHandle& private_node) {
   auto config = bridge::readParameters<RoomTrackerNodeConfig>(private_node);
-  config.topics.finish();
-  config.rooms.check(private_node.getNamespace());
+  if (config.rooms.map.empty()) {
+    throw config::Error(private_node.getNamespace(), 0, "map", "has to name a rooms file");
+  }
   return config;
 }
 

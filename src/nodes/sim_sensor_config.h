@@ -67,8 +67,9 @@ struct SimRobotConfig {
 
   void visit(config::FieldVisitor& visitor) {
     visitor.text("path", path, "path of a file with a way to drive; without it cmd_vel drives");
-    visitor.numbers("start_pose", start_pose,
-                    {"m, m, rad", {}, "x, y and yaw of the robot in the map at the start"});
+    visitor.numbers(
+        "start_pose", start_pose,
+        {"m, m, rad", config::kCoordinate, "x, y and yaw of the robot in the map at the start"});
     visitor.number("odometry_rate", odometry_rate,
                    {"Hz", {1.0, 200.0}, "of odom, ground_truth and the transform of the odometry"});
     visitor.flag("publish_tf", publish_tf, "broadcast odom_frame to base_frame");
@@ -93,9 +94,9 @@ struct SimSensorConfig {
 
   void visit(config::FieldVisitor& visitor) {
     visitor.text("world", world, "path of the world file; must be set");
-    visitor.integer("seed", seed, {"1", config::kNotNegative, "of all random errors"});
+    visitor.integer("seed", seed, {"1", {0, 1e9}, "of all random errors"});
     visitor.number("duration", duration,
-                   {"s", config::kNotNegative, "the node ends after so much of the run; 0: never"});
+                   {"s", {0.0, 1e9}, "the node ends after so much of the run; 0: never"});
     visitor.flag("clock", clock, "be the clock of all nodes; needs use_sim_time");
     visitor.number("speed_factor", speed_factor,
                    {"1", {0.01, 100.0}, "as the clock: simulated seconds in a real one"});

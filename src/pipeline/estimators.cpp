@@ -8,20 +8,13 @@ namespace sightline::pipeline {
 
 using geometry::Pose2;
 
-geometry::UncertainPose2 startPose(const RoomsConfig& config) {
-  const double position = config.initial_sigma[0] * config.initial_sigma[0];
-  const double heading = config.initial_sigma[1] * config.initial_sigma[1];
-  return {{config.initial_pose[0], config.initial_pose[1], config.initial_pose[2]},
-          Eigen::Vector3d(position, position, heading).asDiagonal()};
-}
-
 Estimators::Estimators(const EstimatorsConfig& config, const EstimatorSet& set)
     : config_(config), set_(set) {
   config::validate(config_.lines);
   if (set.rooms) {
     if (!config_.rooms) throw config::Error("", 0, "rooms", "the settings do not say which");
     rooms_.emplace(config_.rooms->tracker, world::RoomMap::readFile(config_.rooms->map));
-    if (!config_.rooms->initial_pose.empty()) rooms_->setPose(startPose(*config_.rooms));
+    if (config_.rooms->initial_pose) rooms_->setPose(config_.rooms->start());
   }
   // A scanner that leans is only told from walls by where it has been.
   if (set.odometry || config_.input.leans) {
@@ -51,10 +44,10 @@ Estimates Estimators::take(LocatedScan located) {
 void Estimators::restart() {
   if (odometry_) odometry_->restartClock();
   if (!rooms_) return;
-  if (config_.rooms->initial_pose.empty()) {
-    rooms_->restartClock();
+  if (config_.rooms->initial_pose) {
+    rooms_->setPose(config_.rooms->start());
   } else {
-    rooms_->setPose(startPose(*config_.rooms));
+    rooms_->restartClock();
   }
 }
 

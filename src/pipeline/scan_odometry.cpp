@@ -25,16 +25,16 @@ motion::OdometryNoise WheelsConfig::unmeasured() {
 void WheelsConfig::visit(config::FieldVisitor& visitor) {
   visitor.group("noise", noise);
   visitor.number("position_sigma", position_sigma,
-                 {"m", config::kPositive, "error of a step whatever its length"});
+                 {"m", {1e-6, 10.0}, "error of a step whatever its length"});
   visitor.number("heading_sigma", heading_sigma,
-                 {"rad", config::kPositive, "error of a step's turn whatever its size"});
+                 {"rad", {1e-6, 3.2}, "error of a step's turn whatever its size"});
 }
 
 void ScanOdometryConfig::visit(config::FieldVisitor& visitor) {
   matching.visit(visitor);
   visitor.group("wheels", wheels);
   visitor.number("turn_rate_sigma", turn_rate_sigma,
-                 {"rad/s", config::kPositive, "standard deviation of a gyroscope"});
+                 {"rad/s", {1e-6, 10.0}, "standard deviation of a gyroscope"});
 }
 
 MotionPrior wheelPrior(const WheelsConfig& config, const Pose2& T_before_now) {

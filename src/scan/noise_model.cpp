@@ -27,7 +27,8 @@ void NoiseModel::visit(config::FieldVisitor& visitor) {
                   "uniform: half width of the angle interval (jensfelt eq. 2, Delta alpha)"});
   visitor.number(
       "intensity_sigma", intensity_sigma,
-      {"m", config::kNotNegative,
+      {"m intensity",
+       {0.0, 1e6},
        "intensity: this over the intensity is added to sigma in quadrature (pears eq. 2)"});
   visitor.number("angular_sigma", angular_sigma,
                  {"rad", {0.0, 0.1}, "standard deviation of a beam's direction; not for uniform"});

@@ -13,7 +13,8 @@ void ActiveSensorProfile::visit(config::FieldVisitor& visitor) {
   SensorProfile::visit(visitor);
   visitor.group("optics", optics);
   visitor.number("bandwidth", bandwidth,
-                 {"Hz", config::kNotNegative,
+                 {"Hz",
+                  {0.0, 1e7},
                   "of the detector (pears table 1: 1 kHz), which makes neighbours share some of "
                   "their light and noise; 0: none, as in pears eq. 2"});
   visitor.number(

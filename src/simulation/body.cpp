@@ -9,7 +9,7 @@ void Body::visit(config::FieldVisitor& visitor) {
   visitor.number("bottom", bottom, {"m", {0.0, 100.0}, "above the floor"});
   visitor.number("top", top, {"m", {0.0, 100.0}, "above the floor"});
   visitor.number("reflectivity", reflectivity,
-                 {"1", config::kPositive, "share of the light that comes back diffusely"});
+                 {"1", {1e-6, 1e3}, "share of the light that comes back diffusely"});
 }
 
 void Body::check(const std::string& source) const {

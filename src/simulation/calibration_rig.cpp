@@ -120,8 +120,8 @@ BeamAverage Rig::average(const SpotImage& spot, std::size_t beam) {
 
 void RigConfig::visit(config::FieldVisitor& visitor) {
   const config::Range reflectivities{1e-3, 1.0};
-  visitor.number("nearest", nearest, {"m", config::kPositive, "depth of the nearest plain target"});
-  visitor.number("farthest", farthest, {"m", config::kPositive, "depth of the farthest"});
+  visitor.number("nearest", nearest, {"m", {1e-3, 100.0}, "depth of the nearest plain target"});
+  visitor.number("farthest", farthest, {"m", {1e-3, 1000.0}, "depth of the farthest"});
   visitor.integer("depths", depths, {"1", {2, 1000}, "of plain targets, uniform in 1/depth"});
   visitor.integer("readings", readings, {"1", {1, 1000000}, "averaged, of each target"});
   visitor.number("reflectivity", reflectivity,
@@ -132,7 +132,7 @@ void RigConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("dark_reflectivity", dark_reflectivity,
                  {"1", reflectivities, "of every other stripe"});
   visitor.numbers("striped_depths", striped_depths,
-                  {"m", config::kPositive, "depths of the striped target"});
+                  {"m", {1e-3, 1000.0}, "depths of the striped target"});
 }
 
 void RigConfig::check(const std::string& source) const {

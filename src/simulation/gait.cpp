@@ -15,9 +15,8 @@ double blend(double a, double b, double ratio) {
 
 void GaitConfig::visit(config::FieldVisitor& visitor) {
   const config::Range swing{0.0, 0.5};
-  visitor.number("height", height,
-                 {"m", config::kPositive, "of the point that the trunk turns about"});
-  visitor.number("speed", speed, {"m/s", config::kPositive, "of a person who walks"});
+  visitor.number("height", height, {"m", {0.1, 10.0}, "of the point that the trunk turns about"});
+  visitor.number("speed", speed, {"m/s", {1e-3, 50.0}, "of a person who walks"});
   visitor.number("step_rate", step_rate, {"Hz", {0.1, 10.0}, "steps a second at that speed"});
   visitor.number("lean", lean, {"rad", {-0.5, 0.5}, "mean pitch at that speed, positive forward"});
   visitor.number("pitch", pitch, {"rad", swing, "largest swing about the lean, once a step"});

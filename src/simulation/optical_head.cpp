@@ -40,9 +40,9 @@ void Optics::visit(config::FieldVisitor& visitor) {
   visitor.integer("rays", rays, {"1", {1, 1000}, "across the laser beam (pears section 3.3)"});
   visitor.number("beam_width", beam_width,
                  {"m", {0.0, 0.1}, "between the points of 1/e^2 of the power density"});
-  visitor.number("laser_power", laser_power, {"W", config::kPositive, "pears table 1"});
-  visitor.number("responsivity", responsivity, {"A/W", config::kPositive, "of the detector"});
-  visitor.number("lens_diameter", lens_diameter, {"m", config::kPositive, "that gathers light"});
+  visitor.number("laser_power", laser_power, {"W", {1e-9, 100.0}, "pears table 1"});
+  visitor.number("responsivity", responsivity, {"A/W", {1e-3, 100.0}, "of the detector"});
+  visitor.number("lens_diameter", lens_diameter, {"m", {1e-4, 1.0}, "that gathers light"});
 }
 
 OpticalHead::OpticalHead(const triangulation::Intrinsics& intrinsics, const Optics& optics)

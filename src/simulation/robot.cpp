@@ -14,18 +14,18 @@ double approach(double value, double wanted, double limit, double change) {
 }  // namespace
 
 void DriveLimits::visit(config::FieldVisitor& visitor) {
-  visitor.number("max_speed", max_speed, {"m/s", config::kPositive, "fastest drive"});
-  visitor.number("max_turn_rate", max_turn_rate, {"rad/s", config::kPositive, "fastest turn"});
+  visitor.number("max_speed", max_speed, {"m/s", {1e-3, 50.0}, "fastest drive"});
+  visitor.number("max_turn_rate", max_turn_rate, {"rad/s", {1e-3, 50.0}, "fastest turn"});
   visitor.number("acceleration", acceleration,
-                 {"m/s^2", config::kPositive, "how fast the speed changes"});
+                 {"m/s^2", {1e-3, 1e6}, "how fast the speed changes"});
   visitor.number("turn_acceleration", turn_acceleration,
-                 {"rad/s^2", config::kPositive, "how fast the turn rate changes"});
+                 {"rad/s^2", {1e-3, 1e6}, "how fast the turn rate changes"});
 }
 
 void RobotConfig::visit(config::FieldVisitor& visitor) {
   DriveLimits::visit(visitor);
   visitor.number("command_timeout", command_timeout,
-                 {"s", config::kPositive, "the robot stops when no command came for this long"});
+                 {"s", {1e-3, 1e6}, "the robot stops when no command came for this long"});
   visitor.group("odometry", odometry);
   visitor.group("body", body);
 }

@@ -11,19 +11,20 @@ void ScannerProfile::visit(config::FieldVisitor& visitor) {
   visitor.integer("beams", beams, {"1", {1, 100000}, "beams of a sweep"});
   visitor.number("angle_min", angle_min, {"rad", angle, "direction of the first beam"});
   visitor.number("angle_max", angle_max, {"rad", angle, "direction of the last beam"});
-  visitor.number("range_min", range_min, {"m", config::kNotNegative, "nearest range"});
-  visitor.number("range_max", range_max, {"m", config::kPositive, "farthest range"});
+  visitor.number("range_min", range_min, {"m", {0.0, 100.0}, "nearest range"});
+  visitor.number("range_max", range_max, {"m", {1e-3, 1000.0}, "farthest range"});
   visitor.number("rate", rate, {"Hz", {0.1, 1000.0}, "sweeps a second"});
   visitor.number("revolution", revolution,
-                 {"s", config::kNotNegative, "time of a turn of the mirror; 0: all at once"});
+                 {"s", {0.0, 10.0}, "time of a turn of the mirror; 0: all at once"});
   visitor.number("resolution", resolution,
                  {"m", {0.0, 1.0}, "step of the reported range; 0: as computed"});
   visitor.number("dropout", dropout, {"1", {0.0, 1.0}, "share of the beams without an answer"});
   visitor.number("intensity", intensity,
-                 {"sensor's own", config::kNotNegative,
+                 {"sensor's own",
+                  {0.0, 1e6},
                   "of a white surface nearby that faces the sensor; 0: none reported"});
   visitor.number("intensity_half_range", intensity_half_range,
-                 {"m", config::kPositive, "where half of that intensity comes back"});
+                 {"m", {1e-3, 1e4}, "where half of that intensity comes back"});
   visitor.group("noise", noise);
 }
 

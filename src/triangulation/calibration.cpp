@@ -24,7 +24,7 @@ void SensorParameters::visit(config::FieldVisitor& visitor) {
   visitor.group("scan", scan);
   visitor.group("intrinsics", intrinsics);
   visitor.group("origin", origin);
-  visitor.number("noise_current", noise_current, {"A", config::kPositive, "I_n of pears eq. 2"});
+  visitor.number("noise_current", noise_current, {"A", {1e-15, 1e-3}, "I_n of pears eq. 2"});
 }
 
 void SensorParameters::check(const std::string& source) const {

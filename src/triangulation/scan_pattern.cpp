@@ -7,10 +7,10 @@ void ScanPattern::visit(config::FieldVisitor& visitor) {
   visitor.number("field_of_view", field_of_view,
                  {"rad", {0.01, geometry::radians(120.0)}, "from the first beam to the last"});
   visitor.number("sample_rate", sample_rate, {"Hz", {1.0, 1e6}, "of the measurements in a scan"});
-  visitor.number("range_min", range_min, {"m", config::kPositive, "nearest range along a beam"});
-  visitor.number("range_max", range_max, {"m", config::kPositive, "farthest range along a beam"});
+  visitor.number("range_min", range_min, {"m", {1e-3, 100.0}, "nearest range along a beam"});
+  visitor.number("range_max", range_max, {"m", {1e-3, 1000.0}, "farthest range along a beam"});
   visitor.number("min_current", min_current,
-                 {"A", config::kPositive, "with less light there is no measurement"});
+                 {"A", {1e-15, 1.0}, "with less light there is no measurement"});
 }
 
 void ScanPattern::check(const std::string& source) const {

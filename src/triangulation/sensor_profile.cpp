@@ -30,8 +30,8 @@ void readStrictly(const config::Node& document, const char* key, Group& group) {
 }  // namespace
 
 void ModelledDepths::visit(config::FieldVisitor& visitor) {
-  visitor.number("nearest", nearest, {"m", config::kPositive, "depth of the nearest target"});
-  visitor.number("farthest", farthest, {"m", config::kPositive, "depth of the farthest target"});
+  visitor.number("nearest", nearest, {"m", {1e-3, 1e3}, "depth of the nearest target"});
+  visitor.number("farthest", farthest, {"m", {1e-3, 1e3}, "depth of the farthest target"});
   visitor.integer("count", count, {"1", {2, 1000}, "number of targets, uniform in 1/depth"});
 }
 

@@ -110,25 +110,6 @@ TEST(LineMessages, CarryStampAndFrameOfTheScanAlsoWhenEmpty) {
   }
 }
 
-TEST(LineSettings, GoThereAndBack) {
-  lines::LineExtractorConfig config;
-  config.gate = 4.0;
-  config.misfit = 2.0;
-  config.start_phi_sigma = 0.1;
-  config.max_gap = 0.7;
-  config.max_gap_beams = 9;
-  config.min_length = 0.2;
-  config.min_beams = 6;
-  const auto back = fromReconfigure(toReconfigure(config));
-  EXPECT_EQ(back.gate, config.gate);
-  EXPECT_EQ(back.misfit, config.misfit);
-  EXPECT_EQ(back.start_phi_sigma, config.start_phi_sigma);
-  EXPECT_EQ(back.max_gap, config.max_gap);
-  EXPECT_EQ(back.max_gap_beams, config.max_gap_beams);
-  EXPECT_EQ(back.min_length, config.min_length);
-  EXPECT_EQ(back.min_beams, config.min_beams);
-}
-
 TEST(LineSettings, EveryFieldCanBeChangedWhileItRuns) {
   EXPECT_EQ(sightline::LineExtractorConfig::__getParamDescriptions__().size(),
             config::describe<lines::LineExtractorConfig>().size());

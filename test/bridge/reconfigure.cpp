@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include <dynamic_reconfigure/ConfigDescription.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include "round_trip.h"
 #include "sightline/bridge/line_settings.h"
 #include "sightline/bridge/tracker_settings.h"
 #include "sightline/config/fields.h"
@@ -13,26 +15,13 @@ namespace {
 
 // What a field list says of its numbers, under the names of dynamic_reconfigure: a dot becomes an
 // underscore.
-class Numbers : public config::FieldVisitor {
+class Numbers : public config::FieldObserver {
  public:
   struct Entry {
     std::string name;
     double value;
     config::Range range;
   };
-
-  void number(const char* name, double& value, const config::Field& field) override {
-    entries.push_back({prefix_ + name, value, field.range});
-  }
-  void integer(const char* name, int& value, const config::Field& field) override {
-    entries.push_back({prefix_ + name, static_cast<double>(value), field.range});
-  }
-  void flag(const char*, bool&, const char*) override {}
-  void text(const char*, std::string&, const char*) override {}
-  void numbers(const char*, std::vector<double>&, const config::Field&) override {}
-  void option(const char*, std::size_t&, const std::vector<const char*>&, const char*) override {}
-  void enter(const char* group) override { prefix_ = std::string(group) + "_"; }
-  void leave() override { prefix_.clear(); }
 
   const Entry* find(const std::string& name) const {
     const auto found = std::find_if(entries.begin(), entries.end(),
@@ -43,6 +32,16 @@ class Numbers : public config::FieldVisitor {
   std::vector<Entry> entries;
 
  private:
+  void value(const char* name, const config::Value& value, const config::Field& field) override {
+    if (const auto* number = std::get_if<double>(&value)) add(name, *number, field);
+    if (const auto* number = std::get_if<int>(&value)) add(name, *number, field);
+  }
+  void add(const char* name, double number, const config::Field& field) {
+    entries.push_back({prefix_ + name, number, field.range});
+  }
+  void enter(const char* group) override { prefix_ = std::string(group) + "_"; }
+  void leave() override { prefix_.clear(); }
+
   std::string prefix_;
 };
 
@@ -67,7 +66,7 @@ dynamic_reconfigure::Config messageOf(const Settings& settings) {
 template <class Settings, class Config>
 void expectCfgToFollow(Config config) {
   Numbers fields;
-  config.visit(fields);
+  fields.observe(config);
   const auto defaults = messageOf(Settings::__getDefault__());
   const auto least = messageOf(Settings::__getMin__());
   const auto most = messageOf(Settings::__getMax__());
@@ -89,19 +88,34 @@ TEST(Reconfigure, CfgOfTheRoomTrackerFollowsItsFieldList) {
   expectCfgToFollow<RoomTrackerConfig>(tracking::TrackerConfig());
 }
 
+// Every setting there and back: those of cfg/ arrive, each in its own place, and the others stay.
+template <class Settings, class Config>
+void expectRoundTrip() {
+  const auto sent = test::settingsOf(test::changed(Config()));
+  const auto settings = toReconfigure(test::changed(Config()));
+  Config config;
+  applyReconfigure(settings, config);
+  std::set<std::string> held;
+  for (const auto& description : Settings::__getParamDescriptions__()) {
+    held.insert(description->name);
+  }
+  auto kept = test::settingsOf(Config());
+  for (const auto& [name, value] : test::settingsOf(config)) {
+    std::string setting = name;
+    std::replace(setting.begin(), setting.end(), '.', '_');
+    const bool is_held = held.erase(setting) > 0;
+    EXPECT_EQ(value, is_held ? sent.at(name) : kept.at(name)) << name;
+    EXPECT_NE(sent.at(name), kept.at(name)) << name;
+  }
+  EXPECT_TRUE(held.empty()) << *held.begin() << " is no field";
+}
+
+TEST(Reconfigure, LineSettingsGoThereAndBack) {
+  expectRoundTrip<LineExtractorConfig, lines::LineExtractorConfig>();
+}
+
 TEST(Reconfigure, TrackerSettingsGoThereAndBack) {
-  tracking::TrackerConfig config;
-  config.gate.sigmas = 4.0;
-  config.wall.min_beams = 17;
-  config.slip.min_quality = 0.25;
-  config.odometry.scale_mean = 1.3;
-  const auto settings = toReconfigure(config);
-  tracking::TrackerConfig other;
-  applyReconfigure(settings, other);
-  EXPECT_EQ(other.gate.sigmas, 4.0);
-  EXPECT_EQ(other.wall.min_beams, 17);
-  EXPECT_EQ(other.slip.min_quality, 0.25);
-  EXPECT_EQ(other.odometry.scale_mean, 1.0) << "what cfg/ does not hold stays";
+  expectRoundTrip<RoomTrackerConfig, tracking::TrackerConfig>();
 }
 
 }  // namespace

@@ -1,9 +1,14 @@
-// Any text, read as a document of settings: a struct that passes validate(), or config::Error.
+// Any text, read as a document of settings: a struct that passes validate() and can be written, or
+// config::Error.
+#include <array>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sightline/config/fields.h"
+#include "sightline/config/yaml_writer.h"
 
 namespace {
 
@@ -25,17 +30,29 @@ struct Outer {
   double width = 0.5;
   bool active = true;
   std::string name = "none";
-  std::vector<double> pose = {0.0, 0.0, 0.0};
+  std::vector<std::string> topics = {"scan"};
+  std::string file;
+  std::vector<double> widths = {0.0};
+  std::array<double, 2> sigmas = {0.1, 0.1};
+  std::optional<geometry::Pose2> pose;
   Mode mode = Mode::kSlow;
   Inner inner;
+  std::optional<Inner> second;
+  std::map<std::string, geometry::Pose2> mountings;
 
   void visit(config::FieldVisitor& visitor) {
     visitor.number("width", width, {"m", {0.0, 1.0}, "a number"});
     visitor.flag("active", active, "a flag");
     visitor.text("name", name, "a text");
-    visitor.numbers("pose", pose, {"m", {-100.0, 100.0}, "numbers"});
+    visitor.texts("topics", topics, "texts");
+    visitor.path("file", file, "a path");
+    visitor.numbers("widths", widths, {"m", {-100.0, 100.0}, "numbers"});
+    visitor.numbers("sigmas", sigmas, {"m", {0.0, 100.0}, "two numbers"});
+    visitor.pose("pose", pose, "a pose");
     visitor.choice("mode", mode, {"slow", "fast"}, "one of two");
     visitor.group("inner", inner);
+    visitor.group("second", second);
+    visitor.entries("mountings", mountings, "poses by name");
   }
 };
 
@@ -47,6 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Outer outer;
     config::read(config::Node::parse(text, "fuzz"), outer);
     config::validate(outer);
+    config::toYaml(outer);
   } catch (const config::Error&) {
   }
   return 0;

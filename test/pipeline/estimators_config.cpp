@@ -37,7 +37,7 @@ TEST_F(EstimatorsConfigTest, ReadsEveryGroup) {
   EXPECT_EQ(config.input.feed.noise.sigma, 0.03);
   EXPECT_EQ(config.lines.extractor.min_beams, 7);
   ASSERT_TRUE(config.rooms.has_value());
-  EXPECT_THAT(config.rooms->initial_pose, ElementsAre(1.0, 2.0, 0.5));
+  EXPECT_EQ(config.rooms->initial_pose->coordinates(), Eigen::Vector3d(1.0, 2.0, 0.5));
   EXPECT_FALSE(config.rooms->tracker.neighbours);
 }
 

@@ -18,6 +18,8 @@ class ProgramTest : public testing::Test {
     program_.positional("WORD", word_, "a word");
     program_.flag("--flag", flag_, "a flag");
     program_.option("--number", number_, "METRES", "a number");
+    program_.option("--count", count_, "N", "a whole number");
+    program_.option("--seed", seed_, "N", "a whole number, or none");
     program_.option("--pose", pose_, "X Y THETA", "a pose");
     program_.option("--text", text_, "TEXT", "a text");
   }
@@ -42,6 +44,8 @@ class ProgramTest : public testing::Test {
   std::string word_;
   bool flag_ = false;
   double number_ = 7.0;
+  std::uint64_t count_ = 5;
+  std::optional<std::uint64_t> seed_;
   std::array<double, 3> pose_{1.0, 2.0, 3.0};
   std::optional<std::string> text_;
   int runs_ = 0;
@@ -56,8 +60,26 @@ TEST_F(ProgramTest, KeepsWhatIsNotGiven) {
   EXPECT_EQ(word_, "a");
   EXPECT_FALSE(flag_);
   EXPECT_EQ(number_, 7.0);
+  EXPECT_EQ(count_, 5u);
+  EXPECT_FALSE(seed_);
   EXPECT_THAT(pose_, ElementsAre(1.0, 2.0, 3.0));
   EXPECT_FALSE(text_);
+}
+
+TEST_F(ProgramTest, TakesWholeNumbersToTheLastDigit) {
+  EXPECT_EQ(run({"a", "--count", "18446744073709551615", "--seed", "0"}), 0);
+  EXPECT_EQ(count_, 18446744073709551615u);
+  EXPECT_EQ(seed_, 0u);
+}
+
+TEST_F(ProgramTest, RefusesWhatIsNoWholeNumber) {
+  for (const char* number : {"x", "1x", "", "-1", "1.5", "1e3", "18446744073709551616"}) {
+    const std::string reason = std::string("needs a whole number, not '") + number + "'";
+    expectRefusal({"a", "--count", number}, "--count: " + reason);
+    expectRefusal({"a", "--seed", number}, "--seed: " + reason);
+  }
+  EXPECT_EQ(count_, 5u);
+  EXPECT_FALSE(seed_);
 }
 
 TEST_F(ProgramTest, TakesOptionsInAnyOrder) {

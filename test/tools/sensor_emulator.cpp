@@ -49,7 +49,7 @@ TEST(SensorEmulator, BadOptionsEndIt) {
   for (const std::string seed : {"-1", "0.5", "1e30"}) {
     const auto result = emulate(folder.path("port") + " " + kWorld + "--seed " + seed);
     EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.output, HasSubstr("--seed needs a whole number, not"));
+    EXPECT_THAT(result.output, HasSubstr("--seed: needs a whole number, not '" + seed + "'"));
   }
 }
 

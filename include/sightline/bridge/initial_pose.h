@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <string>
-#include <vector>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
@@ -14,6 +14,6 @@ namespace sightline::bridge {
 /// finite, an orientation that is no rotation, a covariance that is none.
 geometry::UncertainPose2 readInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message,
                                          const std::string& map_frame,
-                                         const std::vector<double>& sigma);
+                                         const std::array<double, 2>& sigma);
 
 }  // namespace sightline::bridge

@@ -7,6 +7,8 @@
 namespace sightline::bridge {
 
 sightline::LineExtractorConfig toReconfigure(const lines::LineExtractorConfig& config);
-lines::LineExtractorConfig fromReconfigure(const sightline::LineExtractorConfig& config);
+/// The settings put into a configuration; what cfg/ does not hold stays.
+void applyReconfigure(const sightline::LineExtractorConfig& settings,
+                      lines::LineExtractorConfig& config);
 
 }  // namespace sightline::bridge

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,26 +8,17 @@
 #include <yaml-cpp/yaml.h>
 
 #include "sightline/config/error.h"
+#include "sightline/config/range.h"
+#include "sightline/geometry/pose2.h"
 
 namespace sightline::config {
-
-/// Bounds that a number has to keep, both included.
-struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-
-  bool contains(double value) const { return value >= min && value <= max; }
-  /// As it reads in messages and tables: `[0, 1]`, `> 0`, `>= 0`, `any`.
-  std::string text() const;
-};
-constexpr Range kPositive{std::numeric_limits<double>::min(), std::numeric_limits<double>::max()};
-constexpr Range kNotNegative{0.0, std::numeric_limits<double>::max()};
 
 /// A place in a YAML document that knows its file and key, so that whatever is wrong there can be
 /// said in full. Every accessor throws Error with file, line, key and the reason; a key that stands
 /// twice in one map is an error too.
 class Node {
  public:
+  /// Something that was not read from a file, such as parameters.
   Node(YAML::Node yaml, std::string source, std::string key = "");
   Node(const Node&) = default;
   /// Makes this another place; YAML::Node would write the other's value into this one's document.
@@ -41,13 +31,16 @@ class Node {
   bool isMap() const;
   /// Nothing written: an empty document, or a key without a value.
   bool isNull() const;
+  /// Nothing written, an empty text or an empty sequence.
+  bool isEmpty() const;
   bool has(const std::string& key) const;
   /// The value of a key that has to be there.
   Node at(const std::string& key) const;
   /// All entries of a map, in the order of the file.
   std::vector<std::pair<std::string, Node>> entries() const;
   /// All items of a sequence; an absent or empty optional sequence is `{}` where the caller asks
-  /// has() first.
+  /// has() first. A text in brackets, '[0, 0, 0]', is a sequence too: command lines and launch
+  /// files cannot say it otherwise.
   std::vector<Node> items() const;
   /// Refuses any key that is not listed: a typing error must not pass for a default.
   void allowOnly(std::initializer_list<const char*> keys) const;
@@ -55,12 +48,19 @@ class Node {
   /// Never NaN; finite unless the range is infinite on that side.
   double number(Range range = {}) const;
   int integer(Range range = {}) const;
+  /// true, false, and what YAML takes for them, or 1 and 0.
   bool flag() const;
   std::string text() const;
+  /// The index of a text in a list of words.
+  std::size_t choice(const std::vector<const char*>& words) const;
+  /// A sequence of texts, or one text with its items apart by commas or blanks.
+  std::vector<std::string> texts() const;
   /// A sequence of finite numbers.
   std::vector<double> numbers(Range range = {}) const;
   /// As above, of exactly `count` numbers.
   std::vector<double> numbers(std::size_t count, Range range = {}) const;
+  /// [x, y, yaw] [m, m, rad].
+  geometry::Pose2 pose(Range range = {}) const;
 
   double numberOr(const std::string& key, double fallback, Range range = {}) const;
   std::string textOr(const std::string& key, const std::string& fallback) const;
@@ -69,17 +69,25 @@ class Node {
 
   const std::string& source() const { return source_; }
   const std::string& key() const { return key_; }
-  /// A path written in this document, taken relative to the document's own folder.
+  /// A path written here. It is relative to the folder of the file that it is written in, or, where
+  /// that is no file, to the working directory; ~ is the home of the user; an empty one stays
+  /// empty.
   std::string path() const;
 
  private:
   template <class T>
   T as(const char* expected) const;
   Node child(const std::string& key, const YAML::Node& value) const;
+  Node place(const std::string& key, const YAML::Node& value) const;
+  bool isList() const;
+  Node sequence() const;
+  int line() const;
 
   YAML::Node yaml_;
   std::string source_;
   std::string key_;
+  std::string folder_;  // of the file, empty where there is none
+  int line_ = 0;        // of the text that a sequence was read from, 0 where it was none
 };
 
 }  // namespace sightline::config

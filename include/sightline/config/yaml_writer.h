@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "sightline/config/fields.h"
 
@@ -11,22 +10,14 @@ namespace sightline::config {
 std::string yamlQuoted(const std::string& text);
 
 namespace detail {
-class YamlWriter : public FieldVisitor {
+class YamlWriter : public FieldObserver {
  public:
-  void number(const char* name, double& value, const Field& field) override;
-  void integer(const char* name, int& value, const Field& field) override;
-  void flag(const char* name, bool& value, const char* meaning) override;
-  void text(const char* name, std::string& value, const char* meaning) override;
-  void numbers(const char* name, std::vector<double>& values, const Field& field) override;
-  void option(const char* name, std::size_t& index, const std::vector<const char*>& options,
-              const char* meaning) override;
-  void enter(const char* group) override;
-  void leave() override { --depth_; }
-
   std::string yaml;
 
  private:
-  void line(const char* name, const std::string& value, const std::string& comment);
+  void value(const char* name, const Value& value, const Field& field) override;
+  void enter(const char* group) override;
+  void leave() override { --depth_; }
 
   int depth_ = 0;
 };
@@ -35,9 +26,9 @@ class YamlWriter : public FieldVisitor {
 /// All fields of a configuration as a YAML map, with unit and meaning on every line; config::read()
 /// gives the same configuration back, to the last digit.
 template <class Config>
-std::string toYaml(Config config) {
+std::string toYaml(const Config& config) {
   detail::YamlWriter writer;
-  config.visit(writer);
+  writer.observe(config);
   return writer.yaml;
 }
 

@@ -75,7 +75,4 @@ class Estimators {
   bool is_mounting_known_ = false;  // of the scans that the odometry took
 };
 
-/// The pose that the settings name; its list must not be empty.
-geometry::UncertainPose2 startPose(const RoomsConfig& config);
-
 }  // namespace sightline::pipeline

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,15 +31,15 @@ struct LinesConfig {
 
 /// Settings of the room tracker.
 struct RoomsConfig {
-  std::string map;                              ///< path of the rooms file
-  std::vector<double> initial_pose;             ///< x, y, yaw [m, m, rad]; empty: none
-  std::vector<double> initial_sigma{0.3, 0.1};  ///< position, heading [m, rad]
-  double map_resolution = 0.05;                 ///< of the occupancy grid [m]
+  std::string map;                                ///< path of the rooms file
+  std::optional<geometry::Pose2> initial_pose;    ///< T_map_base at the first scan
+  std::array<double, 2> initial_sigma{0.3, 0.1};  ///< position, heading [m, rad]
+  double map_resolution = 0.05;                   ///< of the occupancy grid [m]
   tracking::TrackerConfig tracker;
 
   void visit(config::FieldVisitor& visitor);
-  /// Throws config::Error naming `source` where the map is missing or a list has another length.
-  void check(const std::string& source) const;
+  /// The start pose with its uncertainty; it has to be there.
+  geometry::UncertainPose2 start() const;
 };
 
 /// Where the scans come from and how they are completed: what all estimators share.
@@ -51,7 +52,6 @@ struct InputConfig {
   bool leans = false;  ///< whether the scanner does not keep level: it sees floor and ceiling
   motion::FloorConfig floor;  ///< of a scanner that leans
 
-  /// Without the topics of scans, which are lists of texts.
   void visit(config::FieldVisitor& visitor);
   /// All topics of scans, lasers first; `scan` where none are named.
   std::vector<std::string> topics() const;
@@ -85,7 +85,9 @@ struct EstimatorsConfig {
   LinesConfig lines;
   std::optional<RoomsConfig> rooms;
   std::optional<ScanOdometryConfig> odometry;
+  std::string carrier;  ///< path of a file with settings that depend on who carries the scanner
 
+  void visit(config::FieldVisitor& visitor);
   /// Throws config::Error with file, line and key.
   static EstimatorsConfig readFile(const std::string& path);
 };

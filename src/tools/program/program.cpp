@@ -16,12 +16,16 @@ std::string faultOfNumber(const std::string& text) {
   return "needs a number, not '" + text + "'";
 }
 
-std::uint64_t wholeNumber(const std::string& name, const std::string& text) {
+std::optional<std::uint64_t> wholeNumber(const std::string& text) {
   std::uint64_t number = 0;
   const char* const end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, number);
-  if (result.ec == std::errc() && result.ptr == end) return number;
-  throw UsageError(name + " needs a whole number, not '" + text + "'");
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return number;
+}
+
+std::string faultOfWholeNumber(const std::string& text) {
+  return wholeNumber(text) ? "" : "needs a whole number, not '" + text + "'";
 }
 
 }  // namespace
@@ -65,14 +69,18 @@ void Program::option(const std::string& name, double& value, const std::string& 
 
 void Program::option(const std::string& name, std::uint64_t& value, const std::string& unit,
                      const std::string& meaning) {
-  const auto set = [&value, name](const std::string& text) { value = wholeNumber(name, text); };
-  app_->add_option_function<std::string>(name, set, meaning)->type_name(unit);
+  const auto set = [&value](const std::string& text) { value = *wholeNumber(text); };
+  app_->add_option_function<std::string>(name, set, meaning)
+      ->check(faultOfWholeNumber)
+      ->type_name(unit);
 }
 
 void Program::option(const std::string& name, std::optional<std::uint64_t>& value,
                      const std::string& unit, const std::string& meaning) {
-  const auto set = [&value, name](const std::string& text) { value = wholeNumber(name, text); };
-  app_->add_option_function<std::string>(name, set, meaning)->type_name(unit);
+  const auto set = [&value](const std::string& text) { value = wholeNumber(text); };
+  app_->add_option_function<std::string>(name, set, meaning)
+      ->check(faultOfWholeNumber)
+      ->type_name(unit);
 }
 
 void Program::option(const std::string& name, std::array<double, 3>& values,

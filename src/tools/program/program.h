@@ -43,7 +43,7 @@ class Program {
   /// Options with a value; `unit` stands for the value in the help.
   void option(const std::string& name, double& value, const std::string& unit,
               const std::string& meaning);
-  /// A whole number from 0 to 2^64 - 1.
+  /// A whole number, 0 or more, in decimal digits.
   void option(const std::string& name, std::uint64_t& value, const std::string& unit,
               const std::string& meaning);
   void option(const std::string& name, std::optional<std::uint64_t>& value, const std::string& unit,
