@@ -7,7 +7,7 @@
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/motion/head_command.h"
 #include "sightline/motion/odometry_noise.h"
-#include "sightline/pipeline/scan_odometry.h"
+#include "sightline/pipeline/estimators_config.h"
 #include "sightline/scan/noise_model.h"
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/gait.h"
@@ -22,9 +22,9 @@ namespace {
 using OfTheLibrary =
     testing::Types<dead_reckoning::DeadReckonerConfig, driver::SessionConfig,
                    lines::LineExtractorConfig, motion::HeadLimits, motion::OdometryNoise,
-                   pipeline::ScanOdometryConfig, scan::NoiseModel, simulation::ActiveSensorProfile,
-                   simulation::GaitConfig, simulation::Mounting, simulation::RobotConfig,
-                   simulation::ScannerProfile, tracking::TrackerConfig>;
+                   pipeline::EstimatorsConfig, pipeline::ScanOdometryConfig, scan::NoiseModel,
+                   simulation::ActiveSensorProfile, simulation::GaitConfig, simulation::Mounting,
+                   simulation::RobotConfig, simulation::ScannerProfile, tracking::TrackerConfig>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Library, EverySetting, OfTheLibrary);
 
 }  // namespace
