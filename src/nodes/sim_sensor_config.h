@@ -19,7 +19,7 @@ struct SimScannerConfig {
   simulation::Mounting mounting;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.text("profile", profile, "path of the scanner's profile; empty: Hokuyo UTM-30LX");
+    visitor.path("profile", profile, "path of the scanner's profile; empty: Hokuyo UTM-30LX");
     visitor.text("topic", topic, "where the scans go");
     visitor.text("frame", frame, "frame of the scans");
     mounting.visit(visitor);
@@ -35,9 +35,9 @@ struct SimActiveSensorConfig {
   simulation::Mounting mounting;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.text("profile", profile,
+    visitor.path("profile", profile,
                  "path of the sensor's profile; empty: as config/sensors/synchronised_scan.yaml");
-    visitor.text("urdf", urdf,
+    visitor.path("urdf", urdf,
                  "path of a robot description with the limits of the head; empty: the profile's");
     visitor.flag("publish_tf", publish_tf,
                  "broadcast base_frame to mount_frame, that to head_frame, and that to frame; off "
@@ -66,8 +66,8 @@ struct SimSensorConfig {
   simulation::GaitConfig gait;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.text("world", world, "path of the world file; must be set");
-    visitor.text("path", path, "path of a file with a way to drive; without it cmd_vel drives");
+    visitor.path("world", world, "path of the world file; must be set");
+    visitor.path("path", path, "path of a file with a way to drive; without it cmd_vel drives");
     visitor.numbers(
         "start_pose", start_pose,
         {"m, m, rad", config::kCoordinate, "x, y and yaw of the robot in the map at the start"});
