@@ -7,12 +7,11 @@ use_system_python() {
   PATH=/usr/bin:$PATH
 }
 
-# configure FOLDER OPTION...: as every build of the scripts is configured.
-configure() {
-  local folder=$1
-  shift
-  mkdir -p "$folder"
-  cmake -S "$repository" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSIGHTLINE_WERROR=ON \
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@" >"$folder/configure.log" 2>&1 ||
-    { cat "$folder/configure.log"; return 1; }
+# Packages that the caller sourced stay outside: what is built and run does not depend on them.
+leave_other_workspaces() {
+  unset CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH LD_LIBRARY_PATH PKG_CONFIG_PATH
+}
+
+free_port() {
+  /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
 }

@@ -5,6 +5,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include "sightline/bridge/head_command_conversion.h"
+#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/range_scan_conversion.h"
 #include "sightline/bridge/time.h"
 
@@ -15,10 +16,7 @@ void ActiveSensorNames::visit(config::FieldVisitor& visitor) {
   visitor.text("scan", scan, "topic of the same scans as sensor_msgs/LaserScan");
   visitor.text("joint_states", joint_states, "topic of the head's position");
   visitor.text("head_command", head_command, "topic of what the head shall do");
-  visitor.text("joint", joint, "name of the head's joint");
-  visitor.text("mount_frame", mount_frame, "frame in which the head turns about the z axis");
-  visitor.text("head_frame", head_frame, "frame that turns with the head, about its own origin");
-  visitor.text("frame", frame, "projection frame: that of the scans, parallel to the head's");
+  frames.visit(visitor);
 }
 
 ActiveSensorTopics::ActiveSensorTopics(ros::NodeHandle node, const ActiveSensorNames& names,
@@ -36,25 +34,35 @@ ActiveSensorTopics::ActiveSensorTopics(ros::NodeHandle node, const ActiveSensorN
           node.subscribe(names.head_command, 10, &ActiveSensorTopics::onHeadCommand, this)) {}
 
 void ActiveSensorTopics::publish(motion::RangeScan& range_scan) const {
-  range_scan.scan.frame = names_.frame;
-  range_scan.head.mount_frame = names_.mount_frame;
+  range_scan.scan.frame = names_.frames.projection;
+  range_scan.head.mount_frame = names_.frames.mount;
   const RangeScan message = toMessage(range_scan);
   range_scan_publisher_.publish(message);
   scan_publisher_.publish(toLaserScan(message));
 }
 
-void ActiveSensorTopics::publishJoint(std::int64_t stamp, double position, double rate) const {
+void ActiveSensorTopics::publishHead(const std::vector<HeadSample>& samples) {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const HeadSample& sample : samples) {
+    transforms.push_back(toTransformMessage(names_.frames.mount, names_.frames.head, sample.stamp,
+                                            geometry::Pose2(0.0, 0.0, sample.angle)));
+  }
+  if (broadcaster_ && !transforms.empty()) broadcaster_->sendTransform(transforms);
+  for (const HeadSample& sample : samples) publishJoint(sample);
+}
+
+void ActiveSensorTopics::publishJoint(const HeadSample& sample) const {
   sensor_msgs::JointState message;
-  message.header.stamp = timeOf(stamp);
-  message.name = {names_.joint};
-  message.position = {position};
-  message.velocity = {rate};
+  message.header.stamp = timeOf(sample.stamp);
+  message.name = {names_.frames.joint};
+  message.position = {sample.angle};
+  message.velocity = {sample.rate};
   joint_publisher_.publish(message);
 }
 
 void ActiveSensorTopics::onHeadCommand(const HeadCommand& message) {
   try {
-    on_command_(fromMessage(message, names_.joint, limits_));
+    on_command_(fromMessage(message, names_.frames.joint, limits_));
     monitor_.accept();
   } catch (const InvalidHeadCommand& fault) {
     monitor_.drop(fault.what());

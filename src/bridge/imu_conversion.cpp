@@ -1,8 +1,8 @@
 #include "sightline/bridge/imu_conversion.h"
 
 #include <cmath>
-#include <stdexcept>
 
+#include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/time.h"
 
 namespace sightline::bridge {
@@ -18,15 +18,15 @@ bool hasOrientation(const sensor_msgs::Imu& message) {
 void checkImu(const sensor_msgs::Imu& message) {
   const auto& w = message.angular_velocity;
   const auto& q = message.orientation;
-  if (message.header.stamp.isZero()) throw std::invalid_argument("a stamp of zero");
+  if (message.header.stamp.isZero()) throw BadMessage("a stamp of zero");
   if (message.angular_velocity_covariance[0] < 0.0) {
-    throw std::invalid_argument("no angular velocity");
+    throw BadMessage("no angular velocity");
   }
   if (!std::isfinite(w.x + w.y + w.z)) {
-    throw std::invalid_argument("an angular velocity that is not finite");
+    throw BadMessage("an angular velocity that is not finite");
   }
   if (hasOrientation(message) && !std::isfinite(q.x + q.y + q.z + q.w)) {
-    throw std::invalid_argument("an orientation that is not finite");
+    throw BadMessage("an orientation that is not finite");
   }
 }
 

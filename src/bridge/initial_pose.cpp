@@ -5,17 +5,14 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
+#include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/pose_conversion.h"
 
 namespace sightline::bridge {
 
 namespace {
 
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
-
-Eigen::Matrix3d diagonalCovariance(const std::vector<double>& sigma) {
+Eigen::Matrix3d diagonalCovariance(const std::array<double, 2>& sigma) {
   const double position = sigma[0] * sigma[0];
   return Eigen::Vector3d(position, position, sigma[1] * sigma[1]).asDiagonal();
 }
@@ -24,35 +21,30 @@ void checkOrientation(const geometry_msgs::Quaternion& q) {
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   // rviz normalises to rounding; what is further off was never a rotation.
   if (!(std::abs(norm - 1.0) < 0.01)) {
-    throw std::invalid_argument(fmt::format("an orientation of norm {}", norm));
+    throw BadMessage(fmt::format("an orientation of norm {}", norm));
   }
 }
 
 void checkCovariance(const Eigen::Matrix3d& covariance) {
-  if (!covariance.allFinite()) throw std::invalid_argument("a covariance that is not finite");
+  if (!covariance.allFinite()) throw BadMessage("a covariance that is not finite");
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   if (!covariance.isApprox(covariance.transpose(), 1e-6) || solver.eigenvalues()[0] < 0.0) {
-    throw std::invalid_argument("a covariance that is not symmetric and positive");
+    throw BadMessage("a covariance that is not symmetric and positive");
   }
 }
 
 }  // namespace
 
-geometry::UncertainPose2 startPose(const std::vector<double>& pose,
-                                   const std::vector<double>& sigma) {
-  return {{pose[0], pose[1], pose[2]}, diagonalCovariance(sigma)};
-}
-
 geometry::UncertainPose2 readInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message,
                                          const std::string& map_frame,
-                                         const std::vector<double>& sigma) {
+                                         const std::array<double, 2>& sigma) {
   if (withoutSlash(message.header.frame_id) != map_frame) {
-    throw std::invalid_argument(
+    throw BadMessage(
         fmt::format("in frame '{}' instead of '{}'", message.header.frame_id, map_frame));
   }
   const geometry_msgs::Point& position = message.pose.pose.position;
   if (!std::isfinite(position.x) || !std::isfinite(position.y)) {
-    throw std::invalid_argument("a position that is not finite");
+    throw BadMessage("a position that is not finite");
   }
   checkOrientation(message.pose.pose.orientation);
   const Eigen::Matrix3d covariance = toCovariance3(message.pose.covariance);

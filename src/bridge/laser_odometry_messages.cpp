@@ -7,8 +7,7 @@ namespace sightline::bridge {
 nav_msgs::Odometry toLaserOdometryMessage(const dead_reckoning::DeadReckoningUpdate& update,
                                           const std::string& odom_frame,
                                           const std::string& base_frame) {
-  return toOdometryMessage({update.stamp, odom_frame, base_frame}, update.pose,
-                           {update.twist, update.twist_covariance});
+  return toOdometryMessage({update.stamp, odom_frame, base_frame}, update.pose, update.twist);
 }
 
 const char* nameOf(dead_reckoning::MatchState state) {

@@ -2,7 +2,9 @@
 
 #include <array>
 
-#include <Eigen/Geometry>
+#include "sightline/bridge/time.h"
+
+#include "sightline/bridge/time.h"
 
 namespace sightline::bridge {
 
@@ -12,6 +14,17 @@ constexpr std::array<int, 3> kPlanar{0, 1, 5};  // x, y and yaw among the six
 
 Eigen::Matrix3d rotationOf(const geometry_msgs::Quaternion& q) {
   return Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+}
+
+geometry_msgs::TransformStamped transformMessage(const std::string& parent,
+                                                 const std::string& child, std::int64_t stamp,
+                                                 const geometry_msgs::Transform& transform) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = timeOf(stamp);
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform = transform;
+  return message;
 }
 
 double yawOf(const geometry_msgs::Quaternion& q) {
@@ -52,6 +65,27 @@ geometry_msgs::Transform toTransform(const geometry::Pose2& pose) {
   return message;
 }
 
+geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
+                                                   const std::string& child, std::int64_t stamp,
+                                                   const geometry::Pose2& T_parent_child) {
+  return transformMessage(parent, child, stamp, toTransform(T_parent_child));
+}
+
+geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
+                                                   const std::string& child, std::int64_t stamp,
+                                                   const Eigen::Isometry3d& T_parent_child) {
+  const Eigen::Quaterniond rotation(T_parent_child.linear());
+  geometry_msgs::Transform transform;
+  transform.translation.x = T_parent_child.translation().x();
+  transform.translation.y = T_parent_child.translation().y();
+  transform.translation.z = T_parent_child.translation().z();
+  transform.rotation.x = rotation.x();
+  transform.rotation.y = rotation.y();
+  transform.rotation.z = rotation.z();
+  transform.rotation.w = rotation.w();
+  return transformMessage(parent, child, stamp, transform);
+}
+
 boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance) {
   boost::array<double, 36> result;
   result.fill(0.0);
@@ -75,8 +109,27 @@ Eigen::Matrix3d toCovariance3(const boost::array<double, 36>& covariance) {
   return result;
 }
 
-Mounting mountingOf(const geometry_msgs::Transform& T_base_sensor) {
-  return {toPose2(T_base_sensor), rotationOf(T_base_sensor.rotation)(2, 2) < 0.0};
+Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  const auto& t = transform.translation;
+  result.linear() = rotationOf(transform.rotation);
+  result.translation() = Eigen::Vector3d(t.x, t.y, t.z);
+  return result;
+}
+
+geometry_msgs::TransformStamped toTransformMessage(std::int64_t stamp, const std::string& parent,
+                                                   const std::string& child,
+                                                   const geometry::Pose2& T_parent_child) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = timeOf(stamp);
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform = toTransform(T_parent_child);
+  return message;
+}
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
 }  // namespace sightline::bridge

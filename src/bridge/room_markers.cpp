@@ -44,14 +44,12 @@ Marker walls(const Scene& scene) {
 }
 
 // A gate is drawn over the length of its wall, as the two edges of jensfelt fig. 4.
-void addGate(const Scene& scene, const tracking::WallObservation& observation, Marker& marker) {
-  const geometry::Segment& segment =
-      scene.map.rooms()[observation.room].walls[observation.wall].segment;
+void addGate(const Scene& scene, const tracking::WallUpdate& found, Marker& marker) {
+  const geometry::Segment& segment = scene.map.rooms()[found.room].walls[found.wall].segment;
   const Eigen::Vector2d normal = segment.leftNormal();
   const double foot = segment.along(scene.update.pose.mean.translation());
   const auto edge = [&](double along, double side) {
-    const double half =
-        observation.gate.opening + std::abs(along - foot) * std::tan(observation.gate.angle);
+    const double half = found.gate.opening + std::abs(along - foot) * std::tan(found.gate.angle);
     return toPoint(segment.start + along * segment.direction() + side * half * normal, 0.02);
   };
   const double waist = std::min(std::max(foot, 0.0), segment.length());
@@ -78,8 +76,8 @@ Marker acceptedPoints(const Scene& scene, const scan::Scan& scan,
   marker.color = colour(0.2F, 1.0F, 0.3F);
   const geometry::Pose2 T_map_sensor = scene.update.pose.mean * T_base_sensor;
   for (const auto& wall : scene.update.walls) {
-    if (!wall.accepted) continue;
-    for (const std::size_t beam : wall.accepted_beams) {
+    if (!wall.accepted()) continue;
+    for (const std::size_t beam : wall.fit->accepted_beams) {
       marker.points.push_back(toPoint(T_map_sensor * scan.point(beam), 0.05));
     }
   }

@@ -17,18 +17,19 @@ geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const tracking::TrackerUp
 
 namespace {
 
-WallStatus toWallStatus(const tracking::WallObservation& wall, const world::RoomMap& map) {
+WallStatus toWallStatus(const tracking::WallUpdate& wall, const world::RoomMap& map) {
   WallStatus message;
   message.room = map.rooms()[wall.room].name;
   message.wall = static_cast<std::uint32_t>(wall.wall);
   message.gate_opening = wall.gate.opening;
   message.gate_angle = wall.gate.angle;
   message.beams_in_gate = static_cast<std::uint32_t>(wall.beams_in_gate);
-  message.beams_accepted = static_cast<std::uint32_t>(wall.accepted_beams.size());
-  message.accepted = wall.accepted;
-  message.innovation[0] = wall.innovation[0];
-  message.innovation[1] = wall.innovation[1];
-  message.nis = wall.nis;
+  message.beams_accepted = static_cast<std::uint32_t>(wall.acceptedBeams());
+  message.accepted = wall.accepted();
+  if (!wall.innovation) return message;
+  message.innovation[0] = wall.innovation->value[0];
+  message.innovation[1] = wall.innovation->value[1];
+  message.nis = wall.innovation->nis;
   return message;
 }
 

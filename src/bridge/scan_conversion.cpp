@@ -44,7 +44,7 @@ float rangeOf(const scan::Scan& scan, std::size_t beam) {
 }  // namespace
 
 bool ScanReader::hasGeometryOf(const sensor_msgs::LaserScan& message) const {
-  return geometry_ && built_beams_ == message.ranges.size() && built_upside_down_ == upside_down_ &&
+  return geometry_ && built_beams_ == message.ranges.size() &&
          built_from_.angle_min == message.angle_min &&
          built_from_.angle_increment == message.angle_increment &&
          built_from_.time_increment == message.time_increment &&
@@ -52,15 +52,13 @@ bool ScanReader::hasGeometryOf(const sensor_msgs::LaserScan& message) const {
 }
 
 void ScanReader::rebuildGeometry(const sensor_msgs::LaserScan& message) {
-  const double sense = upside_down_ ? -1.0 : 1.0;
-  geometry_ = scan::ScanGeometry::uniform(
-      sense * message.angle_min, sense * message.angle_increment, message.ranges.size(),
-      message.time_increment, message.range_min, message.range_max);
+  geometry_ =
+      scan::ScanGeometry::uniform(message.angle_min, message.angle_increment, message.ranges.size(),
+                                  message.time_increment, message.range_min, message.range_max);
   built_from_ = message;
   built_from_.ranges.clear();
   built_from_.intensities.clear();
   built_beams_ = message.ranges.size();
-  built_upside_down_ = upside_down_;
 }
 
 scan::Scan ScanReader::read(const sensor_msgs::LaserScan& message) {
@@ -70,7 +68,6 @@ scan::Scan ScanReader::read(const sensor_msgs::LaserScan& message) {
                   {message.ranges.begin(), message.ranges.end()},
                   {message.intensities.begin(), message.intensities.end()});
   scan.frame = message.header.frame_id;
-  scan::applyNoise(noise_, scan);
   return scan;
 }
 

@@ -11,39 +11,52 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr double kReach = 24.0;     // of the rasters from their centre [m]
-constexpr double kFarthest = 16.0;  // of the points that are counted [m]
-constexpr double kRedrawAt = 4.0;   // they are drawn anew when the centre has moved so far [m]
-constexpr double kThinning = 0.12;  // of the points that are counted [m]
+struct RasterTuning {
+  // Extent of the rasters from their centre, of the points that are counted from the sensor, of the
+  // centre's way after which they are drawn anew, and of the widest window that is searched, which
+  // leaves the rasters a margin for the points; all in metres.
+  double reach = 24.0;
+  double farthest = 16.0;
+  double redraw_at = 4.0;
+  double widest_search = 12.0;
+  // Distance between points that are counted [m], so that near walls do not outvote the rest.
+  double thinning = 0.12;
+  // Cells, and the distance from a surface at which a point counts nothing [m].
+  double coarse_cell = 0.4;
+  double coarse_smear = 0.6;
+  double fine_cell = 0.1;
+  double fine_smear = 0.25;
+  // Steps of heading [rad], and the fine step of position in cells.
+  double coarse_heading = 0.04;
+  double fine_heading = 0.02;
+  int fine_stride = 2;
+  // Coarse poses that are looked at more closely: one in `share_kept`, within these bounds.
+  std::size_t share_kept = 10;
+  std::size_t least_kept = 40;
+  std::size_t most_kept = 400;
+  // Poses nearer to each other than this are one hypothesis [m, rad]; those that score less than
+  // this share of the best are none.
+  double apart_position = 0.35;
+  double apart_heading = 0.1;
+  double worthwhile = 0.6;
+};
+constexpr RasterTuning kRaster{};
 constexpr int kFull = 255;
-// Steps of the search: those in position are whole cells.
-constexpr double kCoarseHeading = 0.04;  // [rad]
-constexpr double kFineHeading = 0.02;    // [rad]
-constexpr int kFineStride = 2;
-// Of the coarse poses so many are looked at more closely.
-constexpr std::size_t kShareKept = 10;
-constexpr std::size_t kLeastKept = 40;
-constexpr std::size_t kMostKept = 400;
-// Poses nearer to each other than this are one hypothesis.
-constexpr double kApartPosition = 0.35;  // [m]
-constexpr double kApartHeading = 0.1;    // [rad]
-// Poses that score less than this share of the best are none.
-constexpr double kWorthwhile = 0.6;
 
-// One point for each stretch, so that near walls do not outvote the rest.
+// One point for each stretch.
 std::vector<Eigen::Vector2d> thinOut(const std::vector<SurfacePoint>& points) {
   std::vector<Eigen::Vector2d> thinned;
   for (const SurfacePoint& point : points) {
-    if (point.position.norm() > kFarthest) continue;
-    if (!thinned.empty() && (point.position - thinned.back()).norm() < kThinning) continue;
+    if (point.position.norm() > kRaster.farthest) continue;
+    if (!thinned.empty() && (point.position - thinned.back()).norm() < kRaster.thinning) continue;
     thinned.push_back(point.position);
   }
   return thinned;
 }
 
 bool isTheSamePeak(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm() < kApartPosition &&
-         std::abs(geometry::wrapAngle(a.theta() - b.theta())) < kApartHeading;
+  return (a.translation() - b.translation()).norm() < kRaster.apart_position &&
+         std::abs(geometry::wrapAngle(a.theta() - b.theta())) < kRaster.apart_heading;
 }
 
 // A pose of the search.
@@ -51,7 +64,7 @@ struct Step {
   double x;
   double y;
   double heading;
-  long sum;  // of what its points count
+  long sum;  // what its points count, together
 };
 
 bool isBetter(const Step& a, const Step& b) {
@@ -67,7 +80,7 @@ std::vector<SearchCandidate> bestApart(std::vector<Step>& all, std::size_t point
     const SearchCandidate candidate{Pose2(step.x, step.y, step.heading),
                                     static_cast<double>(step.sum) / full};
     if (best.size() == most) break;
-    if (!best.empty() && candidate.score < kWorthwhile * best.front().score) break;
+    if (!best.empty() && candidate.score < kRaster.worthwhile * best.front().score) break;
     const bool known = std::any_of(best.begin(), best.end(), [&](const SearchCandidate& other) {
       return isTheSamePeak(candidate.T_odom_base, other.T_odom_base);
     });
@@ -82,6 +95,11 @@ struct Grid {
   int positions;
   double heading_step;  // [rad]
   int stride;           // [cells]
+
+  std::size_t poses() const {
+    const auto side = static_cast<std::size_t>(2 * positions + 1);
+    return side * side * static_cast<std::size_t>(2 * headings + 1);
+  }
 };
 
 class Scorer {
@@ -131,7 +149,8 @@ Step bestAbout(const Step& start, const Grid& grid, Scorer& scorer) {
 
 // The best share of them, but not fewer than a few.
 std::vector<Step> bestOf(std::vector<Step>& steps) {
-  const std::size_t wanted = std::clamp(steps.size() / kShareKept, kLeastKept, kMostKept);
+  const std::size_t wanted =
+      std::clamp(steps.size() / kRaster.share_kept, kRaster.least_kept, kRaster.most_kept);
   const std::size_t kept = std::min(steps.size(), wanted);
   std::partial_sort(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(kept), steps.end(),
                     isBetter);
@@ -144,7 +163,7 @@ std::vector<Step> bestOf(std::vector<Step>& steps) {
 Raster::Raster(double cell, double smear)
     : cell_(cell),
       half_(static_cast<int>(smear / cell)),
-      side_(static_cast<int>(2.0 * kReach / cell)),
+      side_(static_cast<int>(2.0 * kRaster.reach / cell)),
       cells_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0) {
   for (int dy = -half_; dy <= half_; ++dy) {
     for (int dx = -half_; dx <= half_; ++dx) {
@@ -188,34 +207,40 @@ long Raster::sum(const std::vector<std::int32_t>& cells, int dx, int dy) const {
   return sum;
 }
 
-void CorrelativeSearch::draw(const Submap& submap, const Eigen::Vector2d& centre_odom) {
-  if (drawn_ == submap.version() && (centre_odom - centre_).norm() < kRedrawAt) return;
-  drawn_ = submap.version();
-  centre_ = centre_odom;
+SearchRasters::SearchRasters(const Submap& submap, const Eigen::Vector2d& centre_odom)
+    : coarse_(kRaster.coarse_cell, kRaster.coarse_smear),
+      fine_(kRaster.fine_cell, kRaster.fine_smear),
+      drawn_(submap.version()),
+      centre_odom_(centre_odom) {
   coarse_.draw(submap.surfels(), centre_odom);
   fine_.draw(submap.surfels(), centre_odom);
 }
 
-std::vector<SearchCandidate> CorrelativeSearch::search(const std::vector<SurfacePoint>& points,
-                                                       const Submap& submap,
-                                                       const SearchWindow& window,
-                                                       std::size_t most) {
+bool SearchRasters::show(const Submap& submap, const Eigen::Vector2d& centre_odom) const {
+  return drawn_ == submap.version() && (centre_odom - centre_odom_).norm() < kRaster.redraw_at;
+}
+
+SearchResult searchRasters(const std::vector<SurfacePoint>& points, const SearchRasters& rasters,
+                           const SearchWindow& window, std::size_t most) {
   const std::vector<Eigen::Vector2d> thinned = thinOut(points);
   if (thinned.empty()) return {};
-  draw(submap, window.centre.translation());
-  const Grid coarse{static_cast<int>(std::ceil(window.heading / kCoarseHeading)),
-                    static_cast<int>(std::ceil(window.position / coarse_.cell())), kCoarseHeading,
-                    1};
+  const double position = std::min(window.position, kRaster.widest_search);
+  const Grid coarse{static_cast<int>(std::ceil(window.heading / kRaster.coarse_heading)),
+                    static_cast<int>(std::ceil(position / kRaster.coarse_cell)),
+                    kRaster.coarse_heading, 1};
   std::vector<Step> starts;
-  Scorer(coarse_, thinned).scoreAll(window.centre, coarse, [&](const Step& step) {
+  Scorer(rasters.coarse(), thinned).scoreAll(window.centre, coarse, [&](const Step& step) {
     starts.push_back(step);
   });
+  SearchResult result;
+  result.evaluations = starts.size();
+  const Grid about{1, 1, kRaster.fine_heading, kRaster.fine_stride};
   std::vector<Step> all;
-  Scorer fine(fine_, thinned);
-  for (const Step& start : bestOf(starts)) {
-    all.push_back(bestAbout(start, {1, 1, kFineHeading, kFineStride}, fine));
-  }
-  return bestApart(all, thinned.size(), most);
+  Scorer fine(rasters.fine(), thinned);
+  for (const Step& start : bestOf(starts)) all.push_back(bestAbout(start, about, fine));
+  result.evaluations += all.size() * about.poses();
+  result.candidates = bestApart(all, thinned.size(), most);
+  return result;
 }
 
 }  // namespace sightline::dead_reckoning

@@ -22,7 +22,7 @@ struct Derivatives {
         by_step(geometry::composeJacobianSecond(T_odom_base)),
         by_twist(by_step * prediction.by_twist) {}
 
-  // Of the pose against the reference.
+  // Derivatives of the pose against the reference, by the errors before.
   Rows rows() const {
     Rows rows = Rows::Zero();
     rows.block<3, 3>(0, 3) = by_pose;
@@ -37,11 +37,33 @@ Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
 
 }  // namespace
 
+void ErrorState::reset() {
+  covariance_.setZero();
+  motion_.setZero();
+  with_motion_.setZero();
+}
+
 Eigen::Matrix3d ErrorState::predicted(const Pose2& T_odom_base, const StepPrediction& step) const {
   const Derivatives next(T_odom_base, step);
   const Rows rows = next.rows();
   return symmetric(rows * covariance_ * rows.transpose() +
                    next.by_step * step.covariance * next.by_step.transpose());
+}
+
+// What the reference has in common with the scan before moves both ends of a step. The motion
+// within a sweep is not of that kind: its part of the error against the reference stays whole.
+ErrorState::Joint ErrorState::apartFrom(double common) const {
+  const auto addMotion = [this](double sign, Joint& joint) {
+    joint.block<3, 9>(3, 0) += sign * with_motion_.transpose();
+    joint.block<9, 3>(0, 3) += sign * with_motion_;
+    joint.block<3, 3>(3, 3) -= sign * with_motion_.block<3, 3>(3, 0);
+  };
+  Joint apart = covariance_;
+  addMotion(-1.0, apart);
+  apart.block<3, 9>(3, 0) *= std::sqrt(1.0 - common);
+  apart.block<9, 3>(0, 3) *= std::sqrt(1.0 - common);
+  addMotion(1.0, apart);
+  return apart;
 }
 
 Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPrediction& prediction,
@@ -55,7 +77,7 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   const Eigen::Matrix3d of_match = after * measurement.information * after.transpose();
   const Eigen::Matrix3d noise =
       rest * next.by_step * prediction.covariance * next.by_step.transpose() * rest.transpose() +
-      of_match + measurement.spread;
+      of_match + measurement.extra_covariance + measurement.motion_covariance;
   // How the end of the step errs besides the error of its start, from the errors before.
   Rows moved = Rows::Zero();
   moved.block<3, 3>(0, 3) = -gain * next.by_pose;
@@ -65,27 +87,35 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   transition << moved, moved, to_twist * moved;
   transition.block<3, 3>(0, 0) += next.by_pose;
   transition.block<3, 3>(3, 3) += next.by_pose;
-  Eigen::Matrix<double, 9, 3> entry;
+  Columns entry;
   entry << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), to_twist;
-  // What the reference has in common with the scan before moves both ends of the step.
-  Joint apart = covariance_;
-  apart.block<3, 9>(3, 0) *= std::sqrt(1.0 - measurement.common);
-  apart.block<9, 3>(0, 3) *= std::sqrt(1.0 - measurement.common);
+  const Joint apart = apartFrom(measurement.common);
   const Eigen::Matrix3d step_covariance =
       moved * apart * moved.transpose() + noise - measurement.common * of_match;
   covariance_ =
       transition * covariance_ * transition.transpose() + entry * noise * entry.transpose();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  motion_ = measurement.motion_covariance;
+  with_motion_ = entry * motion_;
   return symmetric(next.by_step.transpose() * step_covariance * next.by_step);
+}
+
+void ErrorState::displace(const Eigen::Matrix3d& motion_covariance) {
+  motion_ = motion_covariance;
+  with_motion_.setZero();
 }
 
 // What is handed over is taken for independent of what is left: that is 1 - share of the error, and
 // a part drawn anew.
 void ErrorState::handOver(double share) {
-  const Eigen::Matrix3d left = (1.0 - share) * againstReference();
+  const Eigen::Matrix3d left = (1.0 - share) * againstReference() + share * motion_;
   covariance_.block<3, 9>(3, 0) *= 1.0 - share;
   covariance_.block<9, 3>(0, 3) *= 1.0 - share;
+  covariance_.block<3, 9>(3, 0) += share * with_motion_.transpose();
+  covariance_.block<9, 3>(0, 3) += share * with_motion_;
   covariance_.block<3, 3>(3, 3) = left;
+  with_motion_.block<3, 3>(3, 0) *= 1.0 - share;
+  with_motion_.block<3, 3>(3, 0) += share * motion_;
 }
 
 }  // namespace sightline::dead_reckoning

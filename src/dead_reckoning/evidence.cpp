@@ -9,16 +9,25 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr double kInlier = 0.08;     // [m]
-constexpr double kTruncation = 0.2;  // [m]
-// What a point without a counterpart costs where nobody could expect one, and where the reference
-// has a surface too rough to match with.
-constexpr double kUnknownCost = 0.5;
-// Of a point of the reference that the scan looks through.
-constexpr double kLookedThroughCost = 0.5;
+struct EvidenceTuning {
+  // Distance of a point from its counterpart's line up to which it is one, and at which it would
+  // cost as much as none [m].
+  double inlier = 0.08;
+  double truncation = 0.2;
+  // Cost of a point without a counterpart where nobody could expect one, or where the reference has
+  // a surface too rough to match with; and of a point of the reference that the scan looks through.
+  // After a turn or a gap most points cost the first, so that right poses are refused.
+  double unknown_cost = 0.5;
+  double looked_through_cost = 0.5;
+  // Residuals beyond this, in standard deviations, have next to no weight in the match.
+  double outlier = 4.0;
+  // Largest correlation of neighbours that is believed.
+  double most_correlation = 0.9;
+};
+constexpr EvidenceTuning kEvidence{};
 
 double costOf(Sight sight) {
-  return sight == Sight::kFree ? 1.0 : kUnknownCost;
+  return sight == Sight::kFree ? 1.0 : kEvidence.unknown_cost;
 }
 
 // Points of the newest keyframe where the scan sees free space.
@@ -36,36 +45,35 @@ double lookedThrough(const Pose2& T_odom_base, const RangeProfile& profile, cons
 
 }  // namespace
 
-Evidence weigh(const LineMatch& match, const Sweep& sweep, const RangeProfile& profile,
+Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeProfile& profile,
                const Submap& submap) {
   Evidence sum{0.0, 0.0, 0.0};
   const Eigen::Matrix2d rotation = match.T_odom_base.rotation();
-  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+  for (std::size_t i = 0; i < surfaces.points.size(); ++i) {
     const double distance = match.distances[i];
-    if (std::abs(distance) < kInlier) {
+    if (std::abs(distance) < kEvidence.inlier) {
       sum.inliers += 1.0;
-      sum.cost += distance * distance / (kTruncation * kTruncation);
+      sum.cost += distance * distance / (kEvidence.truncation * kEvidence.truncation);
       continue;
     }
     const Sight sight =
-        submap.sightOf(rotation * sweep.points[i].position + match.T_odom_base.translation());
+        submap.sightOf(rotation * surfaces.points[i].position + match.T_odom_base.translation());
     sum.cost += costOf(sight);
     if (sight == Sight::kFree) sum.contradictions += 1.0;
   }
   const double through = lookedThrough(match.T_odom_base, profile, submap);
-  const double count = static_cast<double>(std::max<std::size_t>(1, sweep.points.size()));
+  const double count = static_cast<double>(std::max<std::size_t>(1, surfaces.points.size()));
   return {sum.inliers / count, (sum.contradictions + through) / count,
-          (sum.cost + kLookedThroughCost * through) / count};
+          (sum.cost + kEvidence.looked_through_cost * through) / count};
 }
 
-ResidualSpread spreadOf(const LineMatch& match) {
+ResidualStatistics residualStatistics(const LineMatch& match) {
   double count = 0.0;
   double squares = 0.0;
   double products = 0.0;
   double before = 0.0;
   for (const double residual : match.residuals) {
-    // Outliers have next to no weight in the match.
-    if (!(std::abs(residual) < 4.0)) {
+    if (!(std::abs(residual) < kEvidence.outlier)) {
       before = 0.0;
       continue;
     }
@@ -75,7 +83,7 @@ ResidualSpread spreadOf(const LineMatch& match) {
     before = residual;
   }
   if (count < 4.0 || squares == 0.0) return {};
-  return {squares / (count - 3.0), std::clamp(products / squares, 0.0, 0.9)};
+  return {squares / (count - 3.0), std::clamp(products / squares, 0.0, kEvidence.most_correlation)};
 }
 
 }  // namespace sightline::dead_reckoning

@@ -8,28 +8,40 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "sightline/dead_reckoning/motion_gradient.h"
+
 namespace sightline::dead_reckoning {
 
 namespace {
 
 using geometry::Pose2;
 
-constexpr int kMaxRounds = 12;
-// Of the pose, for each choice of counterparts: fewer while these are provisional.
-constexpr int kMaxSteps = 4;
-constexpr int kMaxFirstSteps = 2;
-constexpr double kScaleFall = 0.4;
-constexpr double kFinalScale = 3.0;  // in standard deviations
-constexpr double kMaxReach = 0.25;   // a counterpart is sought no further than this [m]
-// Beyond its own half length a surfel counts a little further [m].
-constexpr double kOverhang = 0.03;
-// A step as small as this is the last; a pose that moved less than ten of them keeps its pairs.
-constexpr double kSettled = 3e-4;      // [m]
-constexpr double kTurnSettled = 1e-4;  // [rad]
-constexpr double kKeepsPairs = 10.0;
-// A direction of which no larger share of the information is real shows nothing: S has errors, too.
-constexpr double kLeastShare = 0.3;
-constexpr double kLeastInformation = 1e-3;  // where no beam says anything [1/m², 1]
+struct LineTuning {
+  // Choices of counterparts, and steps of the pose for each of them: fewer while the counterparts
+  // are provisional.
+  int max_rounds = 12;
+  int max_steps = 4;
+  int max_first_steps = 2;
+  // Scale of the loss: by how much it falls from one choice to the next, and its last, in standard
+  // deviations. Half of that costs 4 points of bad steps on a scanner of 5 cm counts (aces).
+  double scale_fall = 0.4;
+  double final_scale = 3.0;
+  // A counterpart is sought no further than this, and counts a little further than its own half
+  // length [m].
+  double max_reach = 0.25;
+  double overhang = 0.03;
+  // A step as small as this is the last [m, rad]; a pose that moved less than `keeps_pairs` of them
+  // keeps its counterparts. Five instead of ten costs .35 points of bad steps on the Intel log.
+  double settled = 3e-4;
+  double turn_settled = 1e-4;
+  double keeps_pairs = 10.0;
+  // Share of a direction's information up to which nothing of it is taken for real, as the estimate
+  // of what is spurious errs too. From 0 to .9 the corridors of aces look the same.
+  double least_share = 0.3;
+  // Information where no beam says anything [1/m², 1].
+  double least_information = 1e-3;
+};
+constexpr LineTuning kLine{};
 
 // A sum of weighted outer products v vᵀ: its upper half.
 struct Symmetric {
@@ -70,106 +82,130 @@ LineResidual lineResidual(const Eigen::Vector2d& translation_odom, const Eigen::
           {normal.x(), normal.y(), normal.y() * arm_odom.x() - normal.x() * arm_odom.y()}};
 }
 
-LineMatch LineMatcher::match(const std::vector<SurfacePoint>& points, const Submap& submap,
-                             const Pose2& start, const geometry::UncertainPose2& prior,
-                             double start_scale) {
+LineMatch LineMatcher::match(const SurfaceScan& surfaces, const Submap& submap, const Pose2& start,
+                             const geometry::UncertainPose2& prior, double start_scale) const {
   const Eigen::Matrix3d prior_information = prior.covariance.inverse();
   LineMatch match;
   match.T_odom_base = start;
+  Pairs pairs;
+  pairs.reserve(surfaces.points.size());
   double scale = std::max(finalScale(), start_scale);
   bool settled = false;
-  for (int i = 0; i < kMaxRounds && !settled; ++i) {
-    findPairs(points, submap, match.T_odom_base, scale);
-    const double moved = descend(prior.mean, prior_information, scale, match);
-    settled = scale == finalScale() && moved < kKeepsPairs;
-    scale = std::max(finalScale(), kScaleFall * scale);
+  for (int i = 0; i < kLine.max_rounds && !settled; ++i) {
+    findPairs(surfaces.points, submap, match.T_odom_base, scale, pairs);
+    const double moved = descend(prior.mean, prior_information, scale, pairs, match);
+    settled = scale == finalScale() && moved < kLine.keeps_pairs;
+    scale = std::max(finalScale(), kLine.scale_fall * scale);
   }
-  listResiduals(points, match);
+  listResiduals(surfaces.points, pairs, match);
+  match.motion_gradient = motionGradient(surfaces, match.T_odom_base, pairs);
   return match;
 }
 
 double LineMatcher::finalScale() const {
-  return kFinalScale * std::sqrt(2.0 * surface_variance_);
+  return kLine.final_scale * std::sqrt(2.0 * surface_variance_);
 }
 
 void LineMatcher::findPairs(const std::vector<SurfacePoint>& points, const Submap& submap,
-                            const Pose2& pose, double scale) {
+                            const Pose2& pose, double scale, Pairs& pairs) const {
   const Eigen::Matrix2d rotation = pose.rotation();
-  const double reach = std::min(kMaxReach, 2.0 * scale + 0.05);
-  pairs_.clear();
+  const double reach = std::min(kLine.max_reach, 2.0 * scale + 0.05);
+  pairs.clear();
   for (const SurfacePoint& point : points) {
     const Eigen::Vector2d place = rotation * point.position + pose.translation();
     const Surfel* surfel = submap.nearest(place, rotation * point.normal, reach);
     if (surfel == nullptr) continue;
     const Eigen::Vector2d off = place - surfel->position;
     const double along = std::abs(surfel->normal.x() * off.y() - surfel->normal.y() * off.x());
-    if (along <= surfel->reach + 0.5 * scale + kOverhang) pairs_.push_back({&point, surfel});
+    if (along <= surfel->reach + 0.5 * scale + kLine.overhang) pairs.push_back({&point, surfel});
   }
 }
 
 // Returns how far it went, in units of what counts as settled.
 double LineMatcher::descend(const Pose2& prior, const Eigen::Matrix3d& prior_information,
-                            double scale, LineMatch& match) const {
+                            double scale, const Pairs& pairs, LineMatch& match) const {
   double moved = 0.0;
   double size = 2.0;
-  const int most = scale == finalScale() ? kMaxSteps : kMaxFirstSteps;
+  const int most = scale == finalScale() ? kLine.max_steps : kLine.max_first_steps;
   for (int i = 0; i < most && size > 1.0; ++i) {
-    const NormalEquations normal = linearize(match.T_odom_base, scale);
+    const NormalEquations sum = linearize(match.T_odom_base, scale, pairs);
+    const RealPart real = realPart(sum);
     Eigen::Vector3d off = match.T_odom_base.coordinates() - prior.coordinates();
     off[2] = geometry::wrapAngle(off[2]);
-    const Eigen::Matrix3d information = normal.information + prior_information;
+    const Eigen::Matrix3d information = real.information + prior_information;
     const Eigen::Vector3d step =
-        -information.ldlt().solve(normal.gradient + prior_information * off);
+        -information.ldlt().solve(real.of_gradient * sum.gradient + prior_information * off);
     match.T_odom_base = Pose2(match.T_odom_base.coordinates() + step);
-    match.information = normal.information;
-    size = std::max(step.head<2>().norm() / kSettled, std::abs(step[2]) / kTurnSettled);
+    match.information = real.information;
+    size = std::max(step.head<2>().norm() / kLine.settled, std::abs(step[2]) / kLine.turn_settled);
     moved += size;
   }
   return moved;
 }
 
-LineMatcher::NormalEquations LineMatcher::linearize(const Pose2& pose, double scale) const {
+double LineMatcher::weightOf(const Pair& pair, const LineResidual& residual, double scale) const {
+  const double precision = 1.0 / (scale * scale);
+  const double robust = 1.0 / (1.0 + residual.value * residual.value * precision);
+  return robust * robust / (pair.point->variance + surface_variance_);
+}
+
+LineMatcher::NormalEquations LineMatcher::linearize(const Pose2& pose, double scale,
+                                                    const Pairs& pairs) const {
   const Eigen::Matrix2d rotation = pose.rotation();
   const Eigen::Vector2d translation = pose.translation();
-  const double precision = 1.0 / (scale * scale);
   Symmetric information;
   Symmetric spurious;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  for (const Pair& pair : pairs_) {
+  for (const Pair& pair : pairs) {
     const Eigen::Vector2d arm = rotation * pair.point->position;
     const LineResidual residual = lineResidual(translation, arm, *pair.surfel);
-    const double robust = 1.0 / (1.0 + residual.value * residual.value * precision);
-    const double weight = robust * robust / (pair.point->variance + surface_variance_);
+    const double weight = weightOf(pair, residual, scale);
     information.add(weight, residual.jacobian);
     gradient += weight * residual.value * residual.jacobian;
     spurious.add(weight * pair.surfel->normal_variance, turnedJacobian(pair.surfel->normal, arm));
   }
-  return withoutSpurious({information.matrix(), gradient}, spurious.matrix());
+  return {information.matrix(), gradient, spurious.matrix()};
 }
 
 // Normals that err make a straight wall look as if it showed the position along it: of the
 // information I only I - S is there, while the gradient has the noise of all of I. In the axes in
 // which I is the identity, a direction of which the share λ is real has the error g/λ, of
 // information λ².
-LineMatcher::NormalEquations LineMatcher::withoutSpurious(const NormalEquations& sum,
-                                                          const Eigen::Matrix3d& spurious) {
-  const Eigen::Matrix3d regular = sum.information + kLeastInformation * Eigen::Matrix3d::Identity();
+LineMatcher::RealPart LineMatcher::realPart(const NormalEquations& sum) {
+  const Eigen::Matrix3d regular =
+      sum.information + kLine.least_information * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d root = regular.llt().matrixL();
   const Eigen::Matrix3d whiten = root.inverse();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(whiten * (sum.information - spurious) * whiten.transpose());
+  solver.computeDirect(whiten * (sum.information - sum.spurious) * whiten.transpose());
   const Eigen::Vector3d share =
-      ((solver.eigenvalues().array() - kLeastShare) / (1.0 - kLeastShare)).max(0.0);
+      ((solver.eigenvalues().array() - kLine.least_share) / (1.0 - kLine.least_share)).max(0.0);
   const Eigen::Matrix3d axes = root * solver.eigenvectors();
   return {axes * share.cwiseAbs2().asDiagonal() * axes.transpose(),
-          axes * share.asDiagonal() * solver.eigenvectors().transpose() * whiten * sum.gradient};
+          axes * share.asDiagonal() * solver.eigenvectors().transpose() * whiten};
 }
 
-void LineMatcher::listResiduals(const std::vector<SurfacePoint>& points, LineMatch& match) const {
+Eigen::Matrix3d LineMatcher::motionGradient(const SurfaceScan& surfaces, const Pose2& pose,
+                                            const Pairs& pairs) const {
+  if (surfaces.sightings.empty()) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix2d rotation = pose.rotation();
+  MotionGradient gradient(surfaces, pose);
+  for (const Pair& pair : pairs) {
+    const LineResidual residual =
+        lineResidual(pose.translation(), rotation * pair.point->position, *pair.surfel);
+    gradient.add(static_cast<std::size_t>(pair.point - surfaces.points.data()), pair.surfel->normal,
+                 weightOf(pair, residual, finalScale()) * residual.jacobian);
+  }
+  const Eigen::Matrix3d real = realPart(linearize(pose, finalScale(), pairs)).of_gradient;
+  return real * gradient.covariance() * real.transpose();
+}
+
+void LineMatcher::listResiduals(const std::vector<SurfacePoint>& points, const Pairs& pairs,
+                                LineMatch& match) const {
   const Eigen::Matrix2d rotation = match.T_odom_base.rotation();
   match.residuals.assign(points.size(), std::numeric_limits<double>::quiet_NaN());
   match.distances = match.residuals;
-  for (const Pair& pair : pairs_) {
+  for (const Pair& pair : pairs) {
     const auto i = static_cast<std::size_t>(pair.point - points.data());
     match.distances[i] =
         lineResidual(match.T_odom_base.translation(), rotation * pair.point->position, *pair.surfel)

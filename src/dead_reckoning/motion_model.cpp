@@ -7,27 +7,34 @@ namespace sightline::dead_reckoning {
 
 namespace {
 
-constexpr double kSigmas = 3.0;
+struct PredictionTuning {
+  // Half width of a search window in standard deviations of the prediction.
+  double window_sigmas = 3.0;
+  // Standard deviation that the velocity tends to, as a share of the carrier's largest. Chosen by
+  // hand.
+  double velocity_share = 0.5;
+};
+constexpr PredictionTuning kPrediction{};
 
 // One axis of the motion.
 struct Axis {
-  double kept;   // of the last velocity
-  double sigma;  // of the way
+  double kept;   // share of the last velocity that goes on
+  double sigma;  // standard deviation of the displacement
 };
 
 // `acceleration` is how far the velocity wanders in a second, `most` its bound.
 Axis predictAxis(double acceleration, double most, double elapsed) {
-  const double spread = 0.5 * most;
-  const double ages = elapsed * acceleration / spread;
+  const double velocity_sigma = kPrediction.velocity_share * most;
+  const double ages = elapsed * acceleration / velocity_sigma;
   const double kept = std::exp(-0.5 * ages * ages);
-  return {kept, spread * elapsed * std::sqrt(1.0 - kept * kept)};
+  return {kept, velocity_sigma * elapsed * std::sqrt(1.0 - kept * kept)};
 }
 
 // A perturbation on the right of a step, as one of its coordinates.
 Eigen::Matrix3d alongStart(const geometry::Pose2& step) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = step.rotation();
-  return turn;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  axes.topLeftCorner<2, 2>() = step.rotation();
+  return axes;
 }
 
 Eigen::Vector3d possible(const CarrierConfig& carrier, const Eigen::Vector3d& twist) {
@@ -42,10 +49,11 @@ Eigen::Vector3d possible(const CarrierConfig& carrier, const Eigen::Vector3d& tw
 
 StepPrediction predictStep(const CarrierConfig& carrier, const Eigen::Vector3d& twist,
                            double elapsed) {
-  const Axis way = predictAxis(carrier.acceleration, carrier.max_speed, elapsed);
-  const Axis turn = predictAxis(carrier.turn_acceleration, carrier.max_turn_rate, elapsed);
-  const Eigen::Vector3d kept = elapsed * Eigen::Vector3d(way.kept, way.kept, turn.kept);
-  const Eigen::Vector3d sigma(way.sigma, way.sigma, turn.sigma);
+  const Axis position = predictAxis(carrier.acceleration, carrier.max_speed, elapsed);
+  const Axis heading = predictAxis(carrier.turn_acceleration, carrier.max_turn_rate, elapsed);
+  const Eigen::Vector3d kept =
+      elapsed * Eigen::Vector3d(position.kept, position.kept, heading.kept);
+  const Eigen::Vector3d sigma(position.sigma, position.sigma, heading.sigma);
   const Eigen::Vector3d tangent = kept.cwiseProduct(possible(carrier, twist));
   StepPrediction prediction;
   prediction.step = geometry::Pose2::exp(tangent);
@@ -62,9 +70,10 @@ Eigen::Matrix3d twistJacobian(const geometry::Pose2& step, double elapsed) {
 SearchWindow windowOf(const CarrierConfig& carrier, const geometry::UncertainPose2& T_odom_base,
                       double elapsed) {
   const Eigen::Vector3d sigma = T_odom_base.covariance.diagonal().cwiseSqrt();
-  const double position = kSigmas * std::max(sigma.x(), sigma.y());
+  const double position = kPrediction.window_sigmas * std::max(sigma.x(), sigma.y());
   return {T_odom_base.mean, std::min(position, carrier.max_speed * elapsed),
-          std::min({kSigmas * sigma.z(), carrier.max_turn_rate * elapsed, geometry::kPi})};
+          std::min({kPrediction.window_sigmas * sigma.z(), carrier.max_turn_rate * elapsed,
+                    geometry::kPi})};
 }
 
 }  // namespace sightline::dead_reckoning

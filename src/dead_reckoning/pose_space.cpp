@@ -3,18 +3,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sightline/dead_reckoning/motion_gradient.h"
+
 namespace sightline::dead_reckoning {
 
 namespace {
 
 using geometry::Pose2;
 
-// Positions are first so many steps apart, then half of that, down to one.
-constexpr int kCoarsest = 4;
-// A pose that matches less than this share of the points explains nothing.
-constexpr double kFewestCounted = 0.3;
-// Below this share of matching points the least squares may make it worse.
-constexpr double kCorrectedShare = 0.5;
+struct PoseSpaceTuning {
+  // Positions are first so many steps apart, then half of that, down to one.
+  int coarsest = 4;
+  // A pose that matches less than this share of the points explains nothing; below the second share
+  // the least squares may make it worse. Chosen by hand.
+  double fewest_counted = 0.3;
+  double corrected_share = 0.5;
+  // Error of a point over the distance at which two points match: those of the reference are not
+  // where those of the scan are, and neighbours share that.
+  double sigma_per_threshold = 5.0;
+  // Half side of the largest square that is searched [m], and poses that one level tries at most.
+  // Where the window holds more, the first steps are twice as far apart, again and again; but not
+  // so few points are counted.
+  double widest_search = 12.0;
+  double most_poses = 5e5;
+  std::size_t fewest_points = 20;
+};
+constexpr PoseSpaceTuning kPoseSpace{};
 
 bool isLeft(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() < b.x();
@@ -29,6 +43,14 @@ struct PoseGrid {
   double heading_step;  // [rad]
   double threshold;     // [m]
   std::size_t stride;   // only every so many points are counted
+
+  // To either side.
+  int headings() const { return static_cast<int>(std::ceil(heading / heading_step)); }
+  int positions() const { return static_cast<int>(std::ceil(position / step)); }
+  double poses() const {
+    const double side = 2.0 * positions() + 1.0;
+    return side * side * (2.0 * headings() + 1.0);
+  }
 };
 
 std::size_t countMatches(const std::vector<Eigen::Vector2d>& turned, const Eigen::Vector2d& shift,
@@ -50,9 +72,9 @@ std::vector<Eigen::Vector2d> turnAll(const std::vector<SurfacePoint>& points, do
 
 Correlation searchGrid(const std::vector<SurfacePoint>& points, const SortedPoints& reference,
                        const PoseGrid& grid) {
-  const int headings = static_cast<int>(std::ceil(grid.heading / grid.heading_step));
-  const int positions = static_cast<int>(std::ceil(grid.position / grid.step));
-  Correlation best{grid.centre, 0};
+  const int headings = grid.headings();
+  const int positions = grid.positions();
+  Correlation best{grid.centre, 0, static_cast<std::size_t>(grid.poses())};
   for (int k = -headings; k <= headings; ++k) {
     const double heading = grid.centre.theta() + k * grid.heading_step;
     const auto turned = turnAll(points, heading, grid.stride);
@@ -60,7 +82,7 @@ Correlation searchGrid(const std::vector<SurfacePoint>& points, const SortedPoin
       for (int x = -positions; x <= positions; ++x) {
         const Eigen::Vector2d place = grid.centre.translation() + grid.step * Eigen::Vector2d(x, y);
         const std::size_t count = countMatches(turned, place, reference, grid.threshold);
-        if (count > best.count) best = {Pose2(place, heading), count};
+        if (count > best.count) best = {Pose2(place, heading), count, best.evaluations};
       }
     }
   }
@@ -97,66 +119,71 @@ bool SortedPoints::hasNear(const Eigen::Vector2d& point, double reach) const {
   return false;
 }
 
+namespace {
+
+// Steps of the first level, in the finest.
+int coarsestOf(PoseGrid grid, const PoseSpaceConfig& config) {
+  int factor = kPoseSpace.coarsest;
+  for (;; factor *= 2) {
+    grid.step = factor * config.step;
+    if (grid.positions() <= 1 || grid.poses() <= kPoseSpace.most_poses) return factor;
+  }
+}
+
+}  // namespace
+
 Correlation correlatePoses(const std::vector<SurfacePoint>& points, const SortedPoints& reference,
                            const SearchWindow& window, const PoseSpaceConfig& config) {
-  PoseGrid grid{window.centre, window.position, window.heading, 0.0, config.angle_step, 0.0, 1};
+  const double position = std::min(window.position, kPoseSpace.widest_search);
+  PoseGrid grid{window.centre, position, window.heading, 0.0, config.angle_step, 0.0, 1};
+  const auto widest_stride = std::max(static_cast<std::size_t>(kPoseSpace.coarsest),
+                                      points.size() / kPoseSpace.fewest_points);
   Correlation best;
-  for (int factor = kCoarsest; factor >= 1; factor /= 2) {
+  std::size_t evaluations = 0;
+  for (int factor = coarsestOf(grid, config); factor >= 1; factor /= 2) {
     grid.step = factor * config.step;
     grid.threshold = std::max(config.threshold, 0.5 * grid.step);
-    grid.stride = static_cast<std::size_t>(factor);
+    grid.stride = std::min(static_cast<std::size_t>(factor), widest_stride);
     best = searchGrid(points, reference, grid);
+    evaluations += best.evaluations;
     grid.centre = best.T_reference_base;
     grid.position = 0.5 * grid.step;
     grid.heading = std::min(window.heading, 2.0 * config.angle_step);
   }
+  best.evaluations = evaluations;
   return best;
 }
 
-Eigen::Matrix3d surfaceInformation(const Sweep& sweep, const Pose2& T_odom_base, double sigma) {
-  const Eigen::Matrix2d rotation = T_odom_base.rotation();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  for (const SurfacePoint& point : sweep.points) {
-    if (!point.hasNormal()) continue;
-    const Eigen::Vector2d arm = rotation * point.position;
-    const Eigen::Vector2d normal = rotation * point.normal;
-    const Eigen::Vector3d jacobian(normal.x(), normal.y(),
-                                   normal.y() * arm.x() - normal.x() * arm.y());
-    information += jacobian * jacobian.transpose() / (sigma * sigma);
-  }
-  return information;
-}
-
-MatchOutcome PoseSpaceMatcher::match(const Sweep& sweep, const geometry::UncertainPose2& prior,
-                                     const SearchWindow& window) {
-  hold_ = false;
+MatchOutcome PoseSpaceMatcher::match(const SurfaceScan& surfaces,
+                                     const geometry::UncertainPose2& prior,
+                                     const SearchWindow& window) const {
   MatchOutcome outcome;
-  outcome.searched = true;
   outcome.T_odom_base = prior.mean;
-  if (sweep.points.empty()) return outcome;
+  if (surfaces.points.empty()) return outcome;
   SearchWindow around = window;
   around.centre = geometry::between(*T_odom_reference_, window.centre);
-  const Correlation best = correlatePoses(sweep.points, reference_, around, config_);
-  outcome.inliers = static_cast<double>(best.count) / static_cast<double>(sweep.points.size());
-  if (outcome.inliers < kFewestCounted) return outcome;
+  const Correlation best = correlatePoses(surfaces.points, reference_, around, config_);
+  outcome.evaluations = best.evaluations;
+  outcome.inliers = static_cast<double>(best.count) / static_cast<double>(surfaces.points.size());
+  if (outcome.inliers < kPoseSpace.fewest_counted) return outcome;
   Pose2 T_reference_base = best.T_reference_base;
-  if (outcome.inliers > kCorrectedShare) {
-    const auto corrected = fitting::alignPoints(pairsAt(sweep, T_reference_base));
+  if (outcome.inliers > kPoseSpace.corrected_share) {
+    const auto corrected = fitting::alignPoints(pairsAt(surfaces, T_reference_base));
     if (corrected) T_reference_base = *corrected;
   }
-  hold_ = outcome.inliers >= config_.hold_share;
+  outcome.reference.is_held = outcome.inliers >= config_.hold_share;
   outcome.state = MatchState::kMatched;
   outcome.T_odom_base = *T_odom_reference_ * T_reference_base;
-  // Points of the reference are not where those of the scan are: that is what the error is made of,
-  // and neighbours share it.
-  outcome.information = surfaceInformation(sweep, outcome.T_odom_base, 5.0 * config_.threshold);
+  const double sigma = kPoseSpace.sigma_per_threshold * config_.threshold;
+  outcome.information = surfaceInformation(surfaces, outcome.T_odom_base, sigma);
+  outcome.motion_gradient = surfaceMotionGradient(surfaces, outcome.T_odom_base, sigma);
   return outcome;
 }
 
-std::vector<fitting::PointPair> PoseSpaceMatcher::pairsAt(const Sweep& sweep,
+std::vector<fitting::PointPair> PoseSpaceMatcher::pairsAt(const SurfaceScan& surfaces,
                                                           const Pose2& T_reference_base) const {
   std::vector<fitting::PointPair> pairs;
-  for (const SurfacePoint& point : sweep.points) {
+  for (const SurfacePoint& point : surfaces.points) {
     const Eigen::Vector2d* nearest =
         reference_.nearest(T_reference_base * point.position, config_.threshold);
     if (nearest != nullptr) pairs.push_back({*nearest, point.position});
@@ -164,10 +191,12 @@ std::vector<fitting::PointPair> PoseSpaceMatcher::pairsAt(const Sweep& sweep,
   return pairs;
 }
 
-double PoseSpaceMatcher::learn(const Sweep& sweep, const Pose2& T_odom_base, MatchState) {
-  if ((T_odom_reference_ && hold_) || sweep.points.empty()) return 0.0;
+double PoseSpaceMatcher::learn(const SurfaceScan& surfaces, const Pose2& T_odom_base,
+                               const MatchOutcome& outcome) {
+  const bool is_kept = T_odom_reference_ && outcome.reference.is_held;
+  if (is_kept || surfaces.points.empty()) return 0.0;
   T_odom_reference_ = T_odom_base;
-  reference_ = SortedPoints(sweep.points);
+  reference_ = SortedPoints(surfaces.points);
   return 1.0;
 }
 

@@ -8,10 +8,13 @@ namespace sightline::dead_reckoning {
 
 namespace {
 
-// What pose and surface may be off: a part that does not depend on the range, and one that grows
-// with it as an error of the heading does.
-constexpr double kMargin = 0.12;  // [m]
-constexpr double kMarginPerMetre = 0.03;
+struct ProfileTuning {
+  // What pose and surface may be off: a part that does not depend on the range [m], and one that
+  // grows with it as an error of the heading does [m/m].
+  double margin = 0.12;
+  double margin_per_metre = 0.03;
+};
+constexpr ProfileTuning kProfile{};
 
 // Bins go round the diamond |x| + |y| = 1 instead of the circle, which takes no arc tangent; they
 // are up to a third narrower or wider than if they were even.
@@ -30,9 +33,9 @@ RangeProfile::RangeProfile() {
   farthest_.fill(-1.0F);
 }
 
-RangeProfile::RangeProfile(const Sweep& sweep) : RangeProfile() {
-  sensor_ = sweep.sensor;
-  for (const SurfacePoint& point : sweep.points) {
+RangeProfile::RangeProfile(const SurfaceScan& surfaces) : RangeProfile() {
+  sensor_ = surfaces.sensor;
+  for (const SurfacePoint& point : surfaces.points) {
     const Eigen::Vector2d beam = point.position - sensor_;
     const auto range = static_cast<float>(beam.norm());
     const std::size_t bin = binOf(beam, kBins);
@@ -48,7 +51,7 @@ Sight RangeProfile::at(const Eigen::Vector2d& point_base) const {
   const std::size_t bin = binOf(beam, kBins);
   if (farthest_[bin] < 0.0F) return Sight::kUnknown;
   const double range = beam.norm();
-  const double margin = kMargin + kMarginPerMetre * range;
+  const double margin = kProfile.margin + kProfile.margin_per_metre * range;
   if (range < static_cast<double>(nearest_[bin]) - margin) return Sight::kFree;
   if (range > static_cast<double>(farthest_[bin]) + margin) return Sight::kHidden;
   return Sight::kSurface;

@@ -7,23 +7,32 @@ namespace sightline::dead_reckoning {
 
 namespace {
 
-// Cells lie on a torus: places a whole turn of 51 m apart share one, and are told apart by their
-// distance.
-constexpr std::int32_t kSide = 512;
-constexpr double kCell = 0.1;    // [m]
-constexpr double kFacing = 0.7;  // least cosine between two normals of one surface
-// A surfel this near to an older one that faces the same way says nothing new.
-constexpr double kSpacing = 0.04;  // [m]
-constexpr double kSameFacing = 0.9;
-// Keyframes are dropped this share of them at a time, as that means to build anew.
-constexpr std::size_t kBatches = 4;
+struct SubmapTuning {
+  // Cells on a side, and their size [m]. They lie on a torus: places a whole turn of 51 m apart
+  // share one, and are told apart by their distance.
+  std::int32_t side = 512;
+  double cell = 0.1;
+  // Least cosine between two normals of one surface. One that no pair reaches makes matching
+  // impossible; others make no difference on fr079 and the Intel log.
+  double facing = 0.7;
+  // A surfel this near [m] to an older one that faces the same way says nothing new. Twice the
+  // distance costs 3.5 points of bad steps on a scanner of 5 cm counts (aces).
+  double spacing = 0.04;
+  double same_facing = 0.9;
+  // Share of the keyframes that are dropped at a time, as that means to build anew.
+  std::size_t batches = 4;
+  // Newest keyframes that are asked what a place is, however many there are.
+  std::ptrdiff_t asked = 50;
+};
+constexpr SubmapTuning kSubmap{};
 
 std::int32_t coordinate(double metres) {
-  return static_cast<std::int32_t>(std::floor(metres / kCell));
+  return static_cast<std::int32_t>(std::floor(metres / kSubmap.cell));
 }
 
 std::size_t cell(std::int32_t x, std::int32_t y) {
-  return static_cast<std::size_t>((y & (kSide - 1)) * kSide + (x & (kSide - 1)));
+  return static_cast<std::size_t>((y & (kSubmap.side - 1)) * kSubmap.side +
+                                  (x & (kSubmap.side - 1)));
 }
 
 }  // namespace
@@ -33,10 +42,11 @@ void Submap::clear() {
   rebuild();
 }
 
-double Submap::add(const geometry::Pose2& T_odom_base, const Sweep& sweep, std::size_t most) {
+double Submap::add(const geometry::Pose2& T_odom_base, const SurfaceScan& surfaces,
+                   std::size_t most) {
   const Eigen::Matrix2d rotation = T_odom_base.rotation();
-  Keyframe keyframe{T_odom_base, rotation.transpose(), sweep.points, RangeProfile(sweep), {}};
-  for (const SurfacePoint& point : sweep.points) {
+  Keyframe keyframe{T_odom_base, rotation.transpose(), surfaces.points, RangeProfile(surfaces), {}};
+  for (const SurfacePoint& point : surfaces.points) {
     if (!point.hasNormal()) continue;
     keyframe.surfels.push_back({rotation * point.smoothed + T_odom_base.translation(),
                                 rotation * point.normal, point.normal_variance, point.reach});
@@ -47,7 +57,7 @@ double Submap::add(const geometry::Pose2& T_odom_base, const Sweep& sweep, std::
   for (const Surfel& surfel : keyframe.surfels) added += insert(surfel) ? 1.0 : 0.0;
   keyframes_.push_back(std::move(keyframe));
   if (keyframes_.size() > most) {
-    while (keyframes_.size() > most - most / kBatches) keyframes_.pop_front();
+    while (keyframes_.size() > most - most / kSubmap.batches) keyframes_.pop_front();
     rebuild();
   }
   return added / static_cast<double>(std::max<std::size_t>(1, keyframes_.back().surfels.size()));
@@ -57,7 +67,7 @@ void Submap::rebuild() {
   ++version_;
   surfels_.clear();
   next_.clear();
-  first_.assign(static_cast<std::size_t>(kSide) * kSide, -1);
+  first_.assign(static_cast<std::size_t>(kSubmap.side) * kSubmap.side, -1);
   for (const Keyframe& keyframe : keyframes_) {
     for (const Surfel& surfel : keyframe.surfels) insert(surfel);
   }
@@ -67,8 +77,8 @@ bool Submap::insert(const Surfel& surfel) {
   const std::size_t here = cell(coordinate(surfel.position.x()), coordinate(surfel.position.y()));
   for (std::int32_t i = first_[here]; i >= 0; i = next_[static_cast<std::size_t>(i)]) {
     const Surfel& other = surfels_[static_cast<std::size_t>(i)];
-    if ((other.position - surfel.position).squaredNorm() < kSpacing * kSpacing &&
-        other.normal.dot(surfel.normal) > kSameFacing) {
+    if ((other.position - surfel.position).squaredNorm() < kSubmap.spacing * kSubmap.spacing &&
+        other.normal.dot(surfel.normal) > kSubmap.same_facing) {
       return false;
     }
   }
@@ -82,14 +92,16 @@ bool Submap::insert(const Surfel& surfel) {
 const Surfel* Submap::nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
                               double reach) const {
   if (surfels_.empty()) return nullptr;
-  Nearest nearest{point, normal, normal.isZero(0.0) ? -1.0 : kFacing, reach * reach, nullptr};
+  Nearest nearest{point, normal, normal.isZero(0.0) ? -1.0 : kSubmap.facing, reach * reach,
+                  nullptr};
   const std::int32_t x = coordinate(point.x());
   const std::int32_t y = coordinate(point.y());
-  const double to_border = std::min({point.x() - x * kCell, (x + 1) * kCell - point.x(),
-                                     point.y() - y * kCell, (y + 1) * kCell - point.y()});
+  const double to_border =
+      std::min({point.x() - x * kSubmap.cell, (x + 1) * kSubmap.cell - point.x(),
+                point.y() - y * kSubmap.cell, (y + 1) * kSubmap.cell - point.y()});
   look(cell(x, y), nearest);
   for (std::int32_t ring = 1;; ++ring) {
-    const double covered = to_border + (ring - 1) * kCell;
+    const double covered = to_border + (ring - 1) * kSubmap.cell;
     if (covered * covered >= nearest.square) return nearest.surfel;
     for (std::int32_t i = -ring; i < ring; ++i) {
       look(cell(x + i, y - ring), nearest);
@@ -102,7 +114,9 @@ const Surfel* Submap::nearest(const Eigen::Vector2d& point, const Eigen::Vector2
 
 Sight Submap::sightOf(const Eigen::Vector2d& point) const {
   Sight sight = Sight::kUnknown;
-  for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe) {
+  const auto count = static_cast<std::ptrdiff_t>(keyframes_.size());
+  const auto end = keyframes_.rbegin() + std::min(kSubmap.asked, count);
+  for (auto keyframe = keyframes_.rbegin(); keyframe != end; ++keyframe) {
     const Sight here =
         keyframe->profile.at(keyframe->R_base_odom * (point - keyframe->T_odom_base.translation()));
     if (here == Sight::kFree || here == Sight::kSurface) return here;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/LU>
@@ -13,33 +14,42 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-// Windows in which the local match finds its way from the middle.
-constexpr double kNarrowPosition = 0.4;  // [m]
-constexpr double kNarrowHeading = 0.35;  // [rad]
-// A local match that speaks as clearly as this is taken without looking further.
-constexpr double kClearCost = 0.2;
-constexpr double kClearContradictions = 0.1;
-constexpr double kLeastInliers = 0.25;
-constexpr double kFewContradictions = 0.1;
-constexpr double kNearPrior = 25.0;  // squared Mahalanobis distance
-// The search looks at least this far about a prediction that misled the local match.
-constexpr double kLeastPosition = 0.3;  // [m]
-constexpr double kLeastHeading = 0.3;   // [rad]
-constexpr std::size_t kCandidates = 8;
-constexpr std::size_t kNarrowCandidates = 3;  // where the window is narrow
-constexpr double kLocalScale = 0.2;           // [m]
-constexpr double kSearchScale = 0.3;          // [m]
-// Fewer points than this say nothing.
-constexpr std::size_t kEvidence = 20;
-// Two poses further apart than this are two explanations, and ambiguous where their costs are this
-// near.
-constexpr double kDistinctPosition = 0.15;  // [m]
-constexpr double kDistinctHeading = 0.06;   // [rad]
-constexpr double kNeighbourPosition = 0.25;
-constexpr double kNeighbourHeading = 0.1;
-constexpr double kCostGap = 0.05;
-// So many scans that fit a fresh reference alone make it the one.
-constexpr int kTrusted = 3;
+struct MatchTuning {
+  // Windows in which the local match finds its way from the middle [m, rad].
+  double narrow_position = 0.4;
+  double narrow_heading = 0.35;
+  // A local match that speaks as clearly as this is taken without looking further.
+  double clear_cost = 0.2;
+  double clear_contradictions = 0.1;
+  // Where the prediction leads, this much is enough. Twice the inliers turn the Intel log by 28°
+  // more in all and add .8 points of bad steps.
+  double least_inliers = 0.25;
+  double few_contradictions = 0.1;
+  // Squared Mahalanobis distance from the prior that is near.
+  double near_prior = 25.0;
+  // The search looks at least this far about a prediction that misled the local match [m, rad].
+  double least_position = 0.3;
+  double least_heading = 0.3;
+  // Candidates of a search, and where the window is narrow.
+  std::size_t candidates = 8;
+  std::size_t narrow_candidates = 3;
+  // Scales of the loss at first, from the prediction and from a candidate [m].
+  double local_scale = 0.2;
+  double search_scale = 0.3;
+  // Fewer points than this say nothing.
+  std::size_t fewest_points = 20;
+  // Two poses further apart than this are two explanations [m, rad], and ambiguous where their
+  // costs are this near; refining one of two that are nearer than the second pair leads to the
+  // other.
+  double distinct_position = 0.15;
+  double distinct_heading = 0.06;
+  double neighbour_position = 0.25;
+  double neighbour_heading = 0.1;
+  double cost_gap = 0.05;
+  // So many scans that fit a fresh reference alone make it the one.
+  int trusted_after = 3;
+};
+constexpr MatchTuning kMatch{};
 
 Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
   Eigen::Vector3d off = a.coordinates() - b.coordinates();
@@ -49,22 +59,24 @@ Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
 
 bool isDistinct(const Pose2& a, const Pose2& b) {
   const Eigen::Vector3d off = difference(a, b);
-  return off.head<2>().norm() > kDistinctPosition || std::abs(off[2]) > kDistinctHeading;
+  return off.head<2>().norm() > kMatch.distinct_position ||
+         std::abs(off[2]) > kMatch.distinct_heading;
 }
 
-// Whether refining one would lead to the other.
+// Tells whether refining one would lead to the other.
 bool isNeighbour(const Pose2& a, const Pose2& b) {
   const Eigen::Vector3d off = difference(a, b);
-  return off.head<2>().norm() < kNeighbourPosition && std::abs(off[2]) < kNeighbourHeading;
+  return off.head<2>().norm() < kMatch.neighbour_position &&
+         std::abs(off[2]) < kMatch.neighbour_heading;
 }
 
 bool isNear(const Pose2& pose, const UncertainPose2& prior) {
   const Eigen::Vector3d off = difference(pose, prior.mean);
-  return off.dot(prior.covariance.inverse() * off) < kNearPrior;
+  return off.dot(prior.covariance.inverse() * off) < kMatch.near_prior;
 }
 
 bool isNarrow(const SearchWindow& window) {
-  return window.position < kNarrowPosition && window.heading < kNarrowHeading;
+  return window.position < kMatch.narrow_position && window.heading < kMatch.narrow_heading;
 }
 
 }  // namespace
@@ -74,114 +86,137 @@ void SubmapMatcher::clear() {
   fresh_ = {};
 }
 
-MatchOutcome SubmapMatcher::match(const Sweep& sweep, const UncertainPose2& prior,
-                                  const SearchWindow& window) {
-  matched_fresh_ = false;
-  MatchOutcome outcome = matchWith(trusted_, sweep, prior, window);
+MatchOutcome SubmapMatcher::match(const SurfaceScan& surfaces, const UncertainPose2& prior,
+                                  const SearchWindow& window) const {
+  const Task task{surfaces, RangeProfile(surfaces), prior, window};
+  Attempt first = matchWith(trusted_, task);
+  MatchOutcome& outcome = first.outcome;
+  outcome.reference.trusted_rasters = first.rasters;
   if (fresh_.submap.empty()) return outcome;
+  Rasters& fresh_rasters = outcome.reference.fresh_rasters;
   if (outcome.state == MatchState::kMatched) {
-    // The scans before were bridged; if that went wrong, this pose is a jump.
-    if (!isNear(outcome.T_odom_base, prior) || isDistinct(outcome.T_odom_base, prior.mean)) {
-      const MatchOutcome other = matchWith(fresh_, sweep, prior, window);
-      if (isDistinct(other.T_odom_base, outcome.T_odom_base))
-        outcome.state = MatchState::kRecovered;
-    }
+    if (differsFromFresh(outcome, task, fresh_rasters)) outcome.state = MatchState::kRecovered;
     return outcome;
   }
-  const MatchOutcome fresh = matchWith(fresh_, sweep, prior, window);
-  if (fresh.state != MatchState::kMatched) return outcome;
-  matched_fresh_ = true;
-  return fresh;
+  Attempt second = matchWith(fresh_, task);
+  fresh_rasters = second.rasters;
+  if (second.outcome.state != MatchState::kMatched) return outcome;
+  second.outcome.evaluations += outcome.evaluations;
+  second.outcome.reference = outcome.reference;
+  second.outcome.reference.is_fresh = true;
+  return second.outcome;
 }
 
-double SubmapMatcher::learn(const Sweep& sweep, const Pose2& T_odom_base, MatchState state) {
-  if (sweep.points.size() < kEvidence) return 0.0;
-  if (trusted_.submap.empty()) return addKeyframe(trusted_, sweep, T_odom_base);
-  if (matched_fresh_) {
-    const double added = addKeyframe(fresh_, sweep, T_odom_base);
-    if (++fresh_matches_ >= kTrusted) {
+// The scans before were bridged; if that went wrong, this pose is a jump.
+bool SubmapMatcher::differsFromFresh(const MatchOutcome& outcome, const Task& task,
+                                     Rasters& rasters) const {
+  if (isNear(outcome.T_odom_base, task.prior) &&
+      !isDistinct(outcome.T_odom_base, task.prior.mean)) {
+    return false;
+  }
+  const Attempt other = matchWith(fresh_, task);
+  rasters = other.rasters;
+  return isDistinct(other.outcome.T_odom_base, outcome.T_odom_base);
+}
+
+double SubmapMatcher::learn(const SurfaceScan& surfaces, const Pose2& T_odom_base,
+                            const MatchOutcome& outcome) {
+  if (surfaces.points.size() < kMatch.fewest_points) return 0.0;
+  const ReferenceTrace& trace = outcome.reference;
+  if (trace.trusted_rasters) trusted_.rasters = trace.trusted_rasters;
+  if (trace.fresh_rasters) fresh_.rasters = trace.fresh_rasters;
+  if (trusted_.submap.empty()) return addKeyframe(trusted_, surfaces, T_odom_base);
+  if (trace.is_fresh) {
+    const double added = addKeyframe(fresh_, surfaces, T_odom_base);
+    if (++fresh_matches_ >= kMatch.trusted_after) {
       trusted_ = std::move(fresh_);
       fresh_ = {};
     }
     return added;
   }
   fresh_matches_ = 0;
-  if (state == MatchState::kMatched || state == MatchState::kRecovered) {
+  if (outcome.state == MatchState::kMatched || outcome.state == MatchState::kRecovered) {
     if (!fresh_.submap.empty()) fresh_ = {};
-    return addKeyframe(trusted_, sweep, T_odom_base);
+    return addKeyframe(trusted_, surfaces, T_odom_base);
   }
   fresh_ = {};
-  return addKeyframe(fresh_, sweep, T_odom_base);
+  return addKeyframe(fresh_, surfaces, T_odom_base);
 }
 
-double SubmapMatcher::addKeyframe(Reference& reference, const Sweep& sweep,
+double SubmapMatcher::addKeyframe(Reference& reference, const SurfaceScan& surfaces,
                                   const Pose2& T_odom_base) {
-  const Pose2 way = geometry::between(reference.keyframe, T_odom_base);
-  if (!reference.submap.empty() && way.translation().norm() < config_.spacing &&
-      std::abs(way.theta()) < config_.turn_spacing) {
+  const Pose2 step = geometry::between(reference.keyframe, T_odom_base);
+  if (!reference.submap.empty() && step.translation().norm() < config_.spacing &&
+      std::abs(step.theta()) < config_.turn_spacing) {
     return 0.0;
   }
   reference.keyframe = T_odom_base;
-  return reference.submap.add(T_odom_base, sweep, static_cast<std::size_t>(config_.keyframes));
+  return reference.submap.add(T_odom_base, surfaces, static_cast<std::size_t>(config_.keyframes));
 }
 
-MatchOutcome SubmapMatcher::matchWith(Reference& reference, const Sweep& sweep,
-                                      const UncertainPose2& prior, const SearchWindow& window) {
-  if (sweep.points.size() < kEvidence) return {};
-  const RangeProfile profile(sweep);
+SubmapMatcher::Attempt SubmapMatcher::matchWith(const Reference& reference,
+                                                const Task& task) const {
+  if (task.surfaces.points.size() < kMatch.fewest_points) return {{}, reference.rasters};
   std::vector<Hypothesis> hypotheses;
-  if (isNarrow(window)) {
-    hypotheses.push_back(
-        refine(reference.submap, sweep, profile, window.centre, prior, kLocalScale));
+  if (isNarrow(task.window)) {
+    hypotheses.push_back(refine(reference.submap, task, task.window.centre, kMatch.local_scale));
     const Hypothesis& local = hypotheses.back();
-    if (local.evidence.cost < kClearCost && local.evidence.contradictions < kClearContradictions &&
-        isNear(local.match.T_odom_base, prior)) {
-      return conclude(hypotheses, prior, window);
+    if (local.evidence.cost < kMatch.clear_cost &&
+        local.evidence.contradictions < kMatch.clear_contradictions &&
+        isNear(local.match.T_odom_base, task.prior)) {
+      return {conclude(hypotheses, task), reference.rasters};
     }
   }
-  for (Hypothesis& found : search(reference, sweep, profile, prior, window)) {
-    hypotheses.push_back(std::move(found));
-  }
-  MatchOutcome outcome = conclude(hypotheses, prior, window);
-  outcome.searched = true;
-  return outcome;
+  return matchWidely(reference, task, std::move(hypotheses));
 }
 
-std::vector<SubmapMatcher::Hypothesis> SubmapMatcher::search(Reference& reference,
-                                                             const Sweep& sweep,
-                                                             const RangeProfile& profile,
-                                                             const UncertainPose2& prior,
-                                                             const SearchWindow& window) {
-  SearchWindow wide = window;
-  wide.position = std::max(window.position, kLeastPosition);
-  wide.heading = std::max(window.heading, kLeastHeading);
-  // A prediction that misled is believed as far as the window goes.
-  UncertainPose2 doubted = prior;
-  const double position = kLeastPosition / 3.0;
-  const double heading = kLeastHeading / 3.0;
-  doubted.covariance +=
-      Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
-  std::vector<Hypothesis> hypotheses;
-  const std::size_t most = isNarrow(window) ? kNarrowCandidates : kCandidates;
-  for (const SearchCandidate& candidate :
-       reference.search.search(sweep.points, reference.submap, wide, most)) {
+SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, const Task& task,
+                                                  std::vector<Hypothesis> hypotheses) const {
+  const Task wide = widened(task);
+  const Rasters rasters = rastersAbout(reference, task.window.centre.translation());
+  const std::size_t most = isNarrow(task.window) ? kMatch.narrow_candidates : kMatch.candidates;
+  const SearchResult found = searchRasters(task.surfaces.points, *rasters, wide.window, most);
+  std::vector<Hypothesis> candidates;
+  for (const SearchCandidate& candidate : found.candidates) {
     const bool known =
-        std::any_of(hypotheses.begin(), hypotheses.end(), [&](const Hypothesis& hypothesis) {
+        std::any_of(candidates.begin(), candidates.end(), [&](const Hypothesis& hypothesis) {
           return isNeighbour(hypothesis.match.T_odom_base, candidate.T_odom_base);
         });
     if (known) continue;
-    hypotheses.push_back(
-        refine(reference.submap, sweep, profile, candidate.T_odom_base, doubted, kSearchScale));
+    candidates.push_back(
+        refine(reference.submap, wide, candidate.T_odom_base, kMatch.search_scale));
   }
-  return hypotheses;
+  std::move(candidates.begin(), candidates.end(), std::back_inserter(hypotheses));
+  MatchOutcome outcome = conclude(hypotheses, task);
+  outcome.evaluations += found.evaluations;
+  return {outcome, rasters};
 }
 
-SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Sweep& sweep,
-                                                const RangeProfile& profile, const Pose2& start,
-                                                const UncertainPose2& prior, double scale) {
+// A prediction that misled is believed as far as the window goes.
+SubmapMatcher::Task SubmapMatcher::widened(const Task& task) {
+  Task wide = task;
+  wide.window.position = std::max(task.window.position, kMatch.least_position);
+  wide.window.heading = std::max(task.window.heading, kMatch.least_heading);
+  const double position = kMatch.least_position / 3.0;
+  const double heading = kMatch.least_heading / 3.0;
+  wide.prior.covariance +=
+      Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
+  return wide;
+}
+
+SubmapMatcher::Rasters SubmapMatcher::rastersAbout(const Reference& reference,
+                                                   const Eigen::Vector2d& centre_odom) {
+  if (reference.rasters && reference.rasters->show(reference.submap, centre_odom)) {
+    return reference.rasters;
+  }
+  return std::make_shared<SearchRasters>(reference.submap, centre_odom);
+}
+
+SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Task& task,
+                                                const Pose2& start, double scale) const {
   Hypothesis hypothesis;
-  hypothesis.match = lines_.match(sweep.points, submap, start, prior, scale);
-  hypothesis.evidence = weigh(hypothesis.match, sweep, profile, submap);
+  hypothesis.match = lines_.match(task.surfaces, submap, start, task.prior, scale);
+  hypothesis.evidence = weigh(hypothesis.match, task.surfaces, task.profile, submap);
   return hypothesis;
 }
 
@@ -189,34 +224,35 @@ SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Swee
 // it: beyond a door most of a scan is new.
 bool SubmapMatcher::isClear(const Hypothesis& hypothesis, bool predicted) const {
   const Evidence& evidence = hypothesis.evidence;
-  if (predicted && evidence.inliers > kLeastInliers &&
-      evidence.contradictions < kFewContradictions) {
+  if (predicted && evidence.inliers > kMatch.least_inliers &&
+      evidence.contradictions < kMatch.few_contradictions) {
     return true;
   }
   return evidence.cost < config_.max_cost && evidence.contradictions < config_.max_contradictions;
 }
 
-MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses,
-                                     const UncertainPose2& prior,
-                                     const SearchWindow& window) const {
+MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const Task& task) const {
   MatchOutcome outcome;
+  outcome.evaluations = hypotheses.size();
   if (hypotheses.empty()) return outcome;
   std::sort(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& a, const Hypothesis& b) {
     return a.evidence.cost < b.evidence.cost;
   });
   const Hypothesis& best = hypotheses.front();
   outcome.T_odom_base = best.match.T_odom_base;
-  const ResidualSpread spread = spreadOf(best.match);
-  outcome.information = best.match.information / spread.factor();
-  outcome.common = spread.common();
+  const ResidualStatistics residuals = residualStatistics(best.match);
+  const double factor = residuals.factor();
+  outcome.information = best.match.information / factor;
+  outcome.motion_gradient = best.match.motion_gradient / (factor * factor);
+  outcome.common = residuals.common();
   outcome.inliers = best.evidence.inliers;
-  const bool predicted = isNarrow(window) && isNear(outcome.T_odom_base, prior);
+  const bool predicted = isNarrow(task.window) && isNear(outcome.T_odom_base, task.prior);
   outcome.state = isClear(best, predicted) ? MatchState::kMatched : MatchState::kFailed;
   for (const Hypothesis& other : hypotheses) {
-    if (other.evidence.cost > best.evidence.cost + kCostGap) break;
+    if (other.evidence.cost > best.evidence.cost + kMatch.cost_gap) break;
     if (!isDistinct(other.match.T_odom_base, outcome.T_odom_base)) continue;
     const Eigen::Vector3d off = difference(other.match.T_odom_base, outcome.T_odom_base);
-    outcome.spread += off * off.transpose();
+    outcome.extra_covariance += off * off.transpose();
     if (outcome.state == MatchState::kMatched) outcome.state = MatchState::kAmbiguous;
   }
   return outcome;

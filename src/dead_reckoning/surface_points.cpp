@@ -4,27 +4,31 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 namespace sightline::dead_reckoning {
 
 namespace {
 
 using geometry::Pose2;
 
-// A surface is fitted over this length to either side, or over so many beams [m].
-constexpr double kHalfLength = 0.25;
-constexpr std::size_t kMinHalf = 3;
-constexpr std::size_t kMaxHalf = 20;
-// Neighbours further apart than a surface seen at 5 degrees would have them are on two surfaces.
-constexpr double kGrazing = 0.087;
-constexpr double kStep = 0.05;  // [m]
-// What a surface may leave of its points and still be straight; where it is less than smooth, there
-// may be a corner [m].
-constexpr double kStraight = 0.02;
-constexpr double kSmooth = 0.01;
-constexpr std::size_t kMinPoints = 3;
-constexpr double kLeastSpread = 1e-6;  // [m²]
+struct SurfaceTuning {
+  // Length to either side that a line is fitted over [m], and bounds of it in beams. Half the
+  // length costs 3 points of bad steps on a scanner of 5 cm counts (aces), nothing on finer ones.
+  double half_length = 0.25;
+  std::size_t min_half = 3;
+  std::size_t max_half = 20;
+  // Neighbours further apart than on a surface seen at this angle [rad] are on two surfaces; the
+  // step is what they may be apart besides [m].
+  double grazing = 0.087;
+  double step = 0.05;
+  // What a surface may leave of its points and still be straight; where it leaves more than
+  // `smooth`, there may be a corner [m]. Half of `straight` costs 4 points on aces.
+  double straight = 0.02;
+  double smooth = 0.01;
+  // Points of a line, and its least extent [m²]. One or six points make no surface finder.
+  std::size_t min_points = 3;
+  double least_extent = 1e-6;
+};
+constexpr SurfaceTuning kSurface{};
 
 Eigen::Vector2d basePoint(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor,
                           const Eigen::Vector3d& twist) {
@@ -32,20 +36,6 @@ Eigen::Vector2d basePoint(const scan::Scan& scan, std::size_t beam, const Pose2&
   const Eigen::Vector2d still = T_base_sensor * scan.point(beam);
   if (!scan.sensorMotion().empty() || offset == 0.0 || twist.isZero()) return still;
   return Pose2::exp(offset * twist) * still;
-}
-
-void check(const scan::Scan& scan) {
-  const std::size_t beams = scan.geometry()->beams();
-  if (scan.ranges().size() != beams || scan.kinds().size() != beams ||
-      scan.rangeVariances().size() != beams) {
-    throw scan::InvalidScan(fmt::format("{} ranges, {} kinds and {} variances for {} beams",
-                                        scan.ranges().size(), scan.kinds().size(),
-                                        scan.rangeVariances().size(), beams));
-  }
-  if (!scan.sensorMotion().empty() && scan.sensorMotion().size() != beams) {
-    throw scan::InvalidScan(
-        fmt::format("the sensor's motion at {} of {} beams", scan.sensorMotion().size(), beams));
-  }
 }
 
 // Sums over points 0 .. i-1, so that those of any stretch are a difference.
@@ -67,9 +57,9 @@ struct Sums {
 struct Line {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();
-  // Of the residuals; infinite before the first fit.
+  // Mean square of the residuals; infinite before the first fit.
   double mean_square = std::numeric_limits<double>::infinity();
-  double spread = 0.0;  // sum of squared distances from the centre along the line
+  double extent = 0.0;  // sum of squared distances from the centre along the line
 };
 
 Line fit(const Sums& sums, std::size_t count) {
@@ -81,7 +71,7 @@ Line fit(const Sums& sums, std::size_t count) {
   const double half = 0.5 * (xx - yy);
   const double root = std::sqrt(half * half + xy * xy);
   const double smaller = 0.5 * (xx + yy) - root;
-  // Of the two equations for the eigenvector, the one that does not cancel.
+  // Two equations give the eigenvector: this is the one that does not cancel.
   const Eigen::Vector2d normal =
       half > 0.0 ? Eigen::Vector2d(-xy, half + root) : Eigen::Vector2d(root - half, -xy);
   // Two parameters were taken from the points.
@@ -93,14 +83,15 @@ Line fit(const Sums& sums, std::size_t count) {
 
 class SurfaceFinder {
  public:
-  explicit SurfaceFinder(Sweep& sweep) : sensor_(sweep.sensor), points_(sweep.points) {
-    const double widest = sweep.beam_angle / kGrazing;
+  explicit SurfaceFinder(SurfaceScan& surfaces)
+      : sensor_(surfaces.sensor), points_(surfaces.points) {
+    const double widest = surfaces.beam_angle / kSurface.grazing;
     sums_.reserve(points_.size() + 1);
     sums_.emplace_back();
     first_.reserve(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       sums_.push_back(sums_.back().with(points_[i].position));
-      const bool broken = i == 0 || gap(i) > kStep + widest * nearer(i);
+      const bool broken = i == 0 || gap(i) > kSurface.step + widest * nearer(i);
       first_.push_back(broken ? i : first_.back());
     }
   }
@@ -120,24 +111,26 @@ class SurfaceFinder {
                     (points_[i - 1].position - sensor_).norm());
   }
 
-  // Of a point whose surface holds the points from `first` to before `end`.
+  // Finds the surface of a point, which holds the points from `first` to before `end`.
   void find(std::size_t i, std::size_t first, std::size_t end) {
     SurfacePoint& point = points_[i];
-    if (end - first < kMinPoints) return;
+    if (end - first < kSurface.min_points) return;
     const double before = i > first ? gap(i) : 0.0;
     const double after = i + 1 < end ? gap(i + 1) : 0.0;
     point.reach = std::max(before, after);
-    const auto wanted = static_cast<std::size_t>(kHalfLength / std::max(point.reach, 1e-3));
+    const auto wanted =
+        static_cast<std::size_t>(kSurface.half_length / std::max(point.reach, 1e-3));
     Line best;
-    for (std::size_t half = std::clamp(wanted, kMinHalf, kMaxHalf); half > 0; half /= 2) {
+    for (std::size_t half = std::clamp(wanted, kSurface.min_half, kSurface.max_half); half > 0;
+         half /= 2) {
       fitAbout(i, first, end, half, best);
       if (best.mean_square < 2.0 * point.variance) break;
     }
-    if (best.mean_square > kStraight * kStraight) return;
+    if (best.mean_square > kSurface.straight * kSurface.straight) return;
     const bool towards = best.normal.dot(sensor_ - point.position) > 0.0;
     point.normal = towards ? best.normal : Eigen::Vector2d(-best.normal);
     point.normal_variance =
-        std::max(best.mean_square, point.variance) / std::max(best.spread, kLeastSpread);
+        std::max(best.mean_square, point.variance) / std::max(best.extent, kSurface.least_extent);
     point.smoothed = point.position + best.normal.dot(best.centre - point.position) * best.normal;
   }
 
@@ -145,13 +138,13 @@ class SurfaceFinder {
   void fitAbout(std::size_t i, std::size_t first, std::size_t end, std::size_t half,
                 Line& best) const {
     takeBetter(std::max(first, i - std::min(i, half)), std::min(end, i + half + 1), best);
-    if (best.mean_square < kSmooth * kSmooth) return;
+    if (best.mean_square < kSurface.smooth * kSurface.smooth) return;
     takeBetter(std::max(first, i - std::min(i, 2 * half)), i + 1, best);
     takeBetter(i, std::min(end, i + 2 * half + 1), best);
   }
 
   void takeBetter(std::size_t left, std::size_t right, Line& best) const {
-    if (right - left < kMinPoints) return;
+    if (right - left < kSurface.min_points) return;
     const Line line = fit(sums_[right] - sums_[left], right - left);
     if (line.mean_square < best.mean_square) best = line;
   }
@@ -159,27 +152,65 @@ class SurfaceFinder {
   Eigen::Vector2d sensor_;
   std::vector<SurfacePoint>& points_;
   std::vector<Sums> sums_;
-  std::vector<std::size_t> first_;  // of the points on the same surface
+  std::vector<std::size_t> first_;  // first point on the same surface, by point
 };
+
+// Noise of the motion, from the sensor's axes to the base's.
+scan::MotionNoise noiseInBase(const scan::MotionNoise& noise, const Pose2& T_base_sensor) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  axes.topLeftCorner<2, 2>() = T_base_sensor.rotation();
+  return {axes * noise.drift * axes.transpose(), axes * noise.walk * axes.transpose(), noise.jitter,
+          T_base_sensor * noise.jitter_axis};
+}
+
+Sighting sightingOf(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor) {
+  const double duration = scan.duration();
+  const double time = duration != 0.0 ? scan.geometry()->timeOffsets()[beam] / duration : 0.0;
+  if (scan.sensorMotion().empty()) return {time, T_base_sensor.translation()};
+  return {time, T_base_sensor * scan.sensorMotion()[beam].translation()};
+}
+
+// A jitter about an axis moves each point on its own, across its surface as far as that does not
+// face the axis.
+void addJitter(SurfaceScan& surfaces) {
+  const scan::MotionNoise& noise = surfaces.motion_noise;
+  for (SurfacePoint& point : surfaces.points) {
+    if (!point.hasNormal()) continue;
+    const Eigen::Vector2d arm = point.position - noise.jitter_axis;
+    const double lever = point.normal.y() * arm.x() - point.normal.x() * arm.y();
+    point.variance += noise.jitter * lever * lever;
+  }
+}
+
+SurfacePoint pointOf(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor,
+                     const Eigen::Vector3d& twist) {
+  SurfacePoint point;
+  point.position = basePoint(scan, beam, T_base_sensor, twist);
+  point.smoothed = point.position;
+  point.variance = scan.rangeVariances()[beam];
+  return point;
+}
 
 }  // namespace
 
-Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor, const Eigen::Vector3d& twist) {
-  check(scan);
-  Sweep sweep;
-  sweep.sensor = T_base_sensor.translation();
-  sweep.beam_angle = std::abs(scan.geometry()->angleIncrement());
-  sweep.points.reserve(scan.beams());
+SurfaceScan readSurfaces(const scan::Scan& scan, const Pose2& T_base_sensor,
+                         const Eigen::Vector3d& twist) {
+  SurfaceScan surfaces;
+  surfaces.sensor = T_base_sensor.translation();
+  if (scan.beams() == 0) return surfaces;
+  surfaces.beam_angle = std::abs(scan.geometry()->angleIncrement());
+  surfaces.motion_noise = noiseInBase(scan.motion_noise, T_base_sensor);
+  const bool moves_unknown =
+      !scan.motion_noise.drift.isZero(0.0) || !scan.motion_noise.walk.isZero(0.0);
+  surfaces.points.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i) || !std::isfinite(scan.ranges()[i])) continue;
-    SurfacePoint point;
-    point.position = basePoint(scan, i, T_base_sensor, twist);
-    point.smoothed = point.position;
-    point.variance = scan.rangeVariances()[i];
-    sweep.points.push_back(point);
+    surfaces.points.push_back(pointOf(scan, i, T_base_sensor, twist));
+    if (moves_unknown) surfaces.sightings.push_back(sightingOf(scan, i, T_base_sensor));
   }
-  SurfaceFinder(sweep).find();
-  return sweep;
+  SurfaceFinder(surfaces).find();
+  if (scan.motion_noise.jitter > 0.0) addJitter(surfaces);
+  return surfaces;
 }
 
 }  // namespace sightline::dead_reckoning

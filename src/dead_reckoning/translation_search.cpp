@@ -9,7 +9,7 @@ namespace sightline::dead_reckoning {
 namespace {
 
 constexpr int kFieldSide = static_cast<int>(2.0 * DistanceField::kReach / DistanceField::kCell);
-constexpr int kCells = 4;  // of the searcher, to each side
+constexpr int kCells = 4;  // along each side of the square that is searched
 
 int cellIndex(double metres) {
   return static_cast<int>(std::floor((metres + DistanceField::kReach) / DistanceField::kCell));

@@ -77,7 +77,7 @@ motion::HeadLimits limitsOf(const urdf::Joint& joint, const std::string& source)
   return limits;
 }
 
-Eigen::Vector2d scanOriginOf(const urdf::ModelInterface& model, const HeadFrames& frames,
+Eigen::Vector3d scanOriginOf(const urdf::ModelInterface& model, const HeadFrames& frames,
                              const std::string& source) {
   const auto link = model.getLink(frames.projection);
   if (!link) refuse(source, frames.projection, "no such link");
@@ -88,10 +88,17 @@ Eigen::Vector2d scanOriginOf(const urdf::ModelInterface& model, const HeadFrames
   const urdf::Pose& origin = joint->parent_to_joint_origin_transform;
   if (joint->type != urdf::Joint::FIXED) refuse(source, joint->name, "is not fixed");
   if (!isParallel(origin.rotation)) refuse(source, joint->name, "is turned against the head");
-  return {origin.position.x, origin.position.y};
+  return {origin.position.x, origin.position.y, origin.position.z};
 }
 
 }  // namespace
+
+void HeadFrames::visit(config::FieldVisitor& visitor) {
+  visitor.text("joint", joint, "name of the head's joint");
+  visitor.text("mount_frame", mount, "frame in which the head turns about the z axis");
+  visitor.text("head_frame", head, "frame that turns with the head, about its own origin");
+  visitor.text("frame", projection, "projection frame: that of the scans, parallel to the head's");
+}
 
 HeadJoint HeadJoint::fromUrdf(const std::string& xml, const HeadFrames& frames,
                               const std::string& source) {
@@ -99,7 +106,8 @@ HeadJoint HeadJoint::fromUrdf(const std::string& xml, const HeadFrames& frames,
   const auto head = model->getJoint(frames.joint);
   if (!head) refuse(source, frames.joint, "no such joint");
   checkHead(*head, frames, source);
-  return {limitsOf(*head, source), scanOriginOf(*model, frames, source), frames.projection};
+  const Eigen::Vector3d origin = scanOriginOf(*model, frames, source);
+  return {limitsOf(*head, source), origin.head<2>(), origin.z(), frames.projection};
 }
 
 HeadJoint HeadJoint::readFile(const std::string& path, const HeadFrames& frames) {

@@ -10,15 +10,21 @@ namespace sightline::fitting {
 
 namespace {
 
-constexpr int kMostSteps = 25;
-// The first steps take everything in, as the start may be off by more than the gate.
-constexpr int kOpenSteps = 3;
-constexpr double kSettled = 1e-4;  // squared step in standard deviations
 constexpr double kEverything = 1e12;
-constexpr std::size_t kLeastReturns = 3;
-constexpr double kLeastCondition = 1e-13;
-// Residuals are divided by no less than this [m].
-constexpr double kLeastSigma = 1e-6;
+
+struct ArcFitConstants {
+  // Gauss-Newton. The first steps take everything in, as the start may be off by more than the
+  // gate.
+  int most_steps = 25;
+  int open_steps = 3;
+  double settled = 1e-4;  // squared step in standard deviations
+  // Below these the numbers determine no circle.
+  std::size_t least_returns = 3;
+  double least_condition = 1e-13;
+  // Residuals are divided by no less than this [m].
+  double least_sigma = 1e-6;
+};
+constexpr ArcFitConstants kArcFit{};
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -48,7 +54,7 @@ Residual residualOf(const ArcReturn& of, const ArcFit& circle) {
   Residual residual;
   residual.value = offset.norm() - circle.radius - bend;
   residual.variance = facing * facing * of.range_variance + grazing * of.across_variance +
-                      2.0 * bend * bend + kLeastSigma * kLeastSigma;
+                      2.0 * bend * bend + kArcFit.least_sigma * kArcFit.least_sigma;
   residual.jacobian << -normal.x(), -normal.y(), -1.0;
   return residual;
 }
@@ -58,9 +64,15 @@ Residual residualOf(const ArcTangent& of, const ArcFit& circle) {
   const double side = offset < 0.0 ? -1.0 : 1.0;
   Residual residual;
   residual.value = side * offset - circle.radius;
-  residual.variance = of.variance + kLeastSigma * kLeastSigma;
+  residual.variance = of.variance + kArcFit.least_sigma * kArcFit.least_sigma;
   residual.jacobian << -side * of.direction.y(), side * of.direction.x(), -1.0;
   return residual;
+}
+
+// ∂(x, y, radius) by the value of one residual.
+Eigen::Vector3d responseOf(const Residual& residual, const ArcFit& fit, double gate) {
+  if (residual.squared() > gate * gate) return Eigen::Vector3d::Zero();
+  return -fit.covariance * residual.jacobian / residual.variance;
 }
 
 struct Normals {
@@ -96,9 +108,9 @@ Normals normalsOf(const ArcObservations& observations, const ArcFit& circle, dou
 
 // No further than the linearisation can be trusted.
 std::optional<Eigen::Vector3d> stepOf(const Normals& normals, const ArcFit& circle) {
-  if (normals.returns < kLeastReturns) return std::nullopt;
+  if (normals.returns < kArcFit.least_returns) return std::nullopt;
   const Eigen::LDLT<Eigen::Matrix3d> solver(normals.information);
-  if (!solver.isPositive() || !(solver.rcond() > kLeastCondition)) return std::nullopt;
+  if (!solver.isPositive() || !(solver.rcond() > kArcFit.least_condition)) return std::nullopt;
   Eigen::Vector3d step = -solver.solve(normals.gradient);
   if (!step.allFinite()) return std::nullopt;
   const double longest = 0.5 * circle.radius / std::max(step.cwiseAbs().maxCoeff(), 1e-300);
@@ -175,7 +187,7 @@ std::optional<ArcFit> startFromPoints(const std::vector<ArcReturn>& returns) {
 }  // namespace
 
 std::optional<ArcFit> startArc(const ArcObservations& observations) {
-  if (observations.returns.size() < kLeastReturns) return std::nullopt;
+  if (observations.returns.size() < kArcFit.least_returns) return std::nullopt;
   if (observations.tangents.size() == 2) {
     if (const auto circle = startFromTangents(observations)) return circle;
   }
@@ -186,17 +198,32 @@ std::optional<ArcFit> refineArc(const ArcObservations& observations, const ArcFi
                                 double gate) {
   ArcFit circle = start;
   circle.convex = side(observations, circle) >= 0;
-  for (int i = 0; i < kMostSteps; ++i) {
-    const bool open = i < kOpenSteps;
+  for (int i = 0; i < kArcFit.most_steps; ++i) {
+    const bool open = i < kArcFit.open_steps;
     const Normals normals = normalsOf(observations, circle, open ? kEverything : gate * gate);
     const auto step = stepOf(normals, circle);
     if (!step) return std::nullopt;
     circle.centre += step->head<2>();
     circle.radius += (*step)[2];
-    if (open || step->dot(normals.information * *step) > kSettled) continue;
+    if (open || step->dot(normals.information * *step) > kArcFit.settled) continue;
     return finished(observations, circle, normalsOf(observations, circle, gate * gate));
   }
   return std::nullopt;
+}
+
+Eigen::Matrix<double, 3, 2> responseTo(const ArcReturn& of, const ArcFit& fit, double gate) {
+  const Residual residual = residualOf(of, fit);
+  const Eigen::RowVector2d by_point = -residual.jacobian.head<2>().transpose();
+  return responseOf(residual, fit, gate) * by_point;
+}
+
+Eigen::Matrix3d responseTo(const ArcTangent& of, const ArcFit& fit, double gate) {
+  const Residual residual = residualOf(of, fit);
+  const double side = cross(of.direction, fit.centre - of.origin) < 0.0 ? -1.0 : 1.0;
+  Eigen::RowVector3d by_ray;
+  by_ray << -residual.jacobian.head<2>().transpose(),
+      -side * of.direction.dot(fit.centre - of.origin);
+  return responseOf(residual, fit, gate) * by_ray;
 }
 
 std::optional<ArcFit> fitArc(const ArcObservations& observations, double gate) {

@@ -11,13 +11,17 @@ namespace {
 
 using geometry::PolarLine;
 
-constexpr int kMaxIterations = 30;
-// A step this far below the standard deviations no longer matters.
-constexpr double kConverged = 1e-4;
-// Share of the information added to its diagonal once a step has led uphill (Levenberg-Marquardt).
-constexpr double kFirstDamping = 1e-2;
-// Points within this distance of each other are one place [m].
-constexpr double kOnePlace = 1e-9;
+struct LineFitConstants {
+  // Gauss-Newton: a step this far below the standard deviations no longer matters.
+  int most_iterations = 30;
+  double converged = 1e-4;
+  // Ratio of the information added to its diagonal once a step has led uphill
+  // (Levenberg-Marquardt).
+  double first_damping = 1e-2;
+  // Points within this distance of each other are one place [m].
+  double one_place = 1e-9;
+};
+constexpr LineFitConstants kLineFit{};
 
 struct NormalEquations {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -80,7 +84,7 @@ std::optional<PolarLine> startLine(const std::vector<NoisyPoint>& points) {
     yy += weight * y * y;
     weights += weight;
   }
-  if (!(std::max(xx, yy) > kOnePlace * kOnePlace * weights)) return std::nullopt;
+  if (!(std::max(xx, yy) > kLineFit.one_place * kLineFit.one_place * weights)) return std::nullopt;
   // Seen edge-on the line runs along the axis, and y' = a x' + b is the fit that tells its slope.
   const double tilt = yy >= xx ? std::atan(xy / yy) : 0.5 * geometry::kPi - std::atan(xy / xx);
   PolarLine line;
@@ -94,10 +98,11 @@ std::optional<LineFit> refineLine(const std::vector<NoisyPoint>& points, const P
   Eigen::Vector2d line(start.rho, start.phi);
   NormalEquations equations = linearise(points, line);
   double damping = 0.0;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < kLineFit.most_iterations; ++iteration) {
     if (!isDetermined(equations.information)) return std::nullopt;
     const Eigen::Matrix2d covariance = equations.information.inverse();
-    if (equations.gradient.dot(covariance * equations.gradient) < kConverged * kConverged) {
+    if (equations.gradient.dot(covariance * equations.gradient) <
+        kLineFit.converged * kLineFit.converged) {
       return LineFit{geometry::canonical({line[0], line[1], covariance}), equations.chi_square,
                      points.size() - 2};
     }
@@ -106,7 +111,7 @@ std::optional<LineFit> refineLine(const std::vector<NoisyPoint>& points, const P
     const Eigen::Vector2d next = line - damped.inverse() * equations.gradient;
     const NormalEquations there = linearise(points, next);
     const bool downhill = there.chi_square < equations.chi_square;
-    damping = downhill ? 0.1 * damping : std::max(kFirstDamping, 10.0 * damping);
+    damping = downhill ? 0.1 * damping : std::max(kLineFit.first_damping, 10.0 * damping);
     if (!downhill) continue;
     line = next;
     equations = there;

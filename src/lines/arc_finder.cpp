@@ -13,15 +13,19 @@ namespace {
 
 using fitting::ArcFit;
 
-// Share of a run that the circle may leave unexplained.
-constexpr double kStrayShare = 0.2;
-// Standard deviation of the radius over the radius, at most.
-constexpr double kRadiusKnown = 0.5;
-constexpr double kArcParameters = 3.0;
-constexpr double kLineParameters = 2.0;
+struct ArcFinderConstants {
+  // Chosen, not measured: what a run may leave unexplained, and how well the radius has to be
+  // known.
+  double stray_ratio = 0.2;   // of the returns of a run
+  double radius_known = 0.5;  // standard deviation of the radius over the radius, at most
+  // Counted: each parameter costs the logarithm of the number of returns (Schwarz 1978).
+  double arc_parameters = 3.0;
+  double line_parameters = 2.0;
+};
+constexpr ArcFinderConstants kArcs{};
 
-bool overlaps(const Piece& piece, const Run& run, std::size_t round) {
-  for (const std::size_t shift : {std::size_t{0}, round}) {
+bool overlaps(const Piece& piece, const Run& run, std::size_t revolution) {
+  for (const std::size_t shift : {std::size_t{0}, revolution}) {
     if (piece.first + shift < run.end && run.first < piece.end + shift) return true;
   }
   return false;
@@ -115,9 +119,10 @@ ArcFinder::ArcFinder(const LineExtractorConfig& config)
 
 void ArcFinder::find(const scan::Scan& scan, const BeamArray& beams, std::vector<Piece>& pieces,
                      std::vector<geometry::Arc>& arcs) {
-  if (config_.max_radius <= 0.0 || beams.round == 0) return;
+  if (config_.max_radius <= 0.0 || beams.revolution == 0) return;
   observations_.returns.reserve(beams.beam.size());
   observations_.tangents.reserve(2);
+  tangent_beams_.reserve(2);
   runs_.assign(beams, pieces);
   for (const Run& run : runs_.withDoubtfulWalls()) {
     if (consider(scan, beams, run, pieces, arcs)) continue;
@@ -135,8 +140,9 @@ bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const R
   const auto fit = fitting::fitArc(observations_, config_.gate);
   if (!fit || !isPlausible(*fit) || !isLikelier(*fit, beams, run, pieces)) return false;
   arcs.push_back(toArc(*fit, scan, beams, run));
+  arcs.back().covariance += motionCovariance(scan, beams, run, *fit);
   const auto isChord = [&](const Piece& piece) {
-    return !runs_.isSureWall(piece.first) && overlaps(piece, run, beams.round);
+    return !runs_.isSureWall(piece.first) && overlaps(piece, run, beams.revolution);
   };
   pieces.erase(std::remove_if(pieces.begin(), pieces.end(), isChord), pieces.end());
   return true;
@@ -145,6 +151,7 @@ bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const R
 void ArcFinder::observe(const scan::Scan& scan, const BeamArray& beams, const Run& run) {
   observations_.returns.clear();
   observations_.tangents.clear();
+  tangent_beams_.clear();
   for (std::size_t i = run.first; i < run.end; ++i) {
     fitting::ArcReturn of;
     of.point = {static_cast<double>(beams.x[i]), static_cast<double>(beams.y[i])};
@@ -172,20 +179,42 @@ void ArcFinder::observeTangent(const scan::Scan& scan, std::size_t beam, Side si
   tangent.direction = (on + past).normalized();
   tangent.origin =
       scan.sensorMotion().empty() ? Eigen::Vector2d(0, 0) : scan.sensorMotion()[beam].translation();
-  const double step = scan.ranges()[beam] * (past - on).norm();
-  tangent.variance = step * step / 12.0;
+  const double range = scan.ranges()[beam];
+  const double step = range * (past - on).norm();
+  // Between two beams, each turned by the jitter.
+  tangent.variance = step * step / 12.0 + 0.5 * scan.motion_noise.jitter * range * range;
   observations_.tangents.push_back(tangent);
+  tangent_beams_.push_back(beam);
+}
+
+// Drift and walk move what was seen at one time alike (pears eqs 14 and 21).
+Eigen::Matrix3d ArcFinder::motionCovariance(const scan::Scan& scan, const BeamArray& beams,
+                                            const Run& run, const ArcFit& fit) {
+  const scan::MotionNoise& noise = scan.motion_noise;
+  if (noise.drift.isZero(0.0) && noise.walk.isZero(0.0)) return Eigen::Matrix3d::Zero();
+  motion_sum_.clear();
+  for (std::size_t k = 0; k < observations_.returns.size(); ++k) {
+    const fitting::ArcReturn& of = observations_.returns[k];
+    const std::size_t beam = beams.beam[run.first + k] % scan.beams();
+    motion_sum_.add(timeRatio(scan, beam), fitting::responseTo(of, fit, config_.gate) *
+                                               motionJacobian(scan, beam, of.point));
+  }
+  for (std::size_t k = 0; k < observations_.tangents.size(); ++k) {
+    motion_sum_.add(timeRatio(scan, tangent_beams_[k]),
+                    fitting::responseTo(observations_.tangents[k], fit, config_.gate));
+  }
+  return motion_sum_.covariance(noise);
 }
 
 bool ArcFinder::isPlausible(const ArcFit& fit) const {
   const double sigma = std::sqrt(fit.covariance(2, 2));
-  if (fit.radius > config_.max_radius || sigma > kRadiusKnown * fit.radius) return false;
+  if (fit.radius > config_.max_radius || sigma > kArcs.radius_known * fit.radius) return false;
   const auto returns = static_cast<double>(fit.returns);
-  if (returns < (1.0 - kStrayShare) * static_cast<double>(observations_.returns.size())) {
+  if (returns < (1.0 - kArcs.stray_ratio) * static_cast<double>(observations_.returns.size())) {
     return false;
   }
   if (returns < config_.min_arc_beams) return false;
-  const double freedom = static_cast<double>(fit.observations()) - kArcParameters;
+  const double freedom = static_cast<double>(fit.observations()) - kArcs.arc_parameters;
   return fit.chi_square <=
          geometry::chiSquareLimit(config_.gate, freedom) * config_.misfit * config_.misfit;
 }
@@ -195,17 +224,17 @@ bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run&
   const double price = std::log(static_cast<double>(run.size()));
   const double arc = fit.chi_square +
                      gate_squared_ * static_cast<double>(run.size() - fit.returns) +
-                     kArcParameters * price;
+                     kArcs.arc_parameters * price;
   double lines = 0.0;
   double loose = static_cast<double>(run.size());
   for (const Piece& piece : pieces) {
-    if (!runs_.isDoubtfulWall(piece.first) || !overlaps(piece, run, beams.round)) continue;
-    lines += piece.chi_square + (kLineParameters + 1.0) * price;
+    if (!runs_.isDoubtfulWall(piece.first) || !overlaps(piece, run, beams.revolution)) continue;
+    lines += piece.chi_square + (kArcs.line_parameters + 1.0) * price;
     loose -= piece.beams;
   }
   if (lines > 0.0) return arc < lines + gate_squared_ * std::max(0.0, loose) - price;
   // A line does not say where it ends, a circle does.
-  const double parameters = kLineParameters + static_cast<double>(fit.tangents);
+  const double parameters = kArcs.line_parameters + static_cast<double>(fit.tangents);
   lines = costOfLine(observations_.returns, gate_squared_) + parameters * price;
   // What is not seen to end on both sides may go on straight behind what hides it.
   return arc + (fit.tangents < 2 ? gate_squared_ : 0.0) < lines;

@@ -11,10 +11,14 @@ namespace sightline::lines {
 
 namespace {
 
-// Lines that meet at more than this are no chords of one curve [sine].
-constexpr double kMostBend = 0.75;
-// Noise alone does not part returns [σ].
-constexpr double kJump = 8.0;
+// Chosen: both are wide, as what passes is fitted and judged by its likelihood.
+struct ArcRunsConstants {
+  // Lines that meet at more than this are no chords of one curve [sine].
+  double most_bend = 0.75;
+  // Noise alone does not part returns [σ].
+  double jump = 8.0;
+};
+constexpr ArcRunsConstants kRuns{};
 
 // Sine of the turn from one line to the next.
 double bend(const Piece& before, const Piece& after) {
@@ -27,13 +31,13 @@ ArcRuns::ArcRuns(const LineExtractorConfig& config) : config_(config), gap_(conf
 
 void ArcRuns::assign(const BeamArray& beams, const std::vector<Piece>& pieces) {
   beams_ = &beams;
-  const bool circle = beams.size > beams.round;
+  const bool circle = beams.size > beams.revolution;
   begin_ = circle && !pieces.empty() ? pieces.front().first : 0;
   // The arrays are as long as the scan has beams, whatever came back.
   owners_.reserve(beams.beam.size());
   runs_.reserve(beams.beam.size());
   loose_runs_.reserve(beams.beam.size());
-  owners_.assign(beams.round, Owner::kNone);
+  owners_.assign(beams.revolution, Owner::kNone);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Owner owner = judge(pieces, i);
     if (owner != Owner::kNone) setOwner(pieces[i], owner);
@@ -63,7 +67,7 @@ bool ArcRuns::isChord(const std::vector<Piece>& pieces, std::size_t i) const {
 }
 
 bool ArcRuns::mayBeChords(const Piece& before, const Piece& after) const {
-  if (std::abs(bend(before, after)) > kMostBend) return false;
+  if (std::abs(bend(before, after)) > kRuns.most_bend) return false;
   return !isJump(before.end - 1, after.first);
 }
 
@@ -79,17 +83,17 @@ void ArcRuns::setOwner(const Piece& piece, Owner owner) {
 }
 
 void ArcRuns::setOwner(std::size_t first, std::size_t end, Owner owner) {
-  const std::size_t round = owners_.size();
-  const std::size_t begin = first % round;
-  const std::size_t count = std::min(end - first, round);
-  const std::size_t before_seam = std::min(count, round - begin);
+  const std::size_t revolution = owners_.size();
+  const std::size_t begin = first % revolution;
+  const std::size_t count = std::min(end - first, revolution);
+  const std::size_t before_seam = std::min(count, revolution - begin);
   std::memset(owners_.data() + begin, static_cast<int>(owner), before_seam);
   std::memset(owners_.data(), static_cast<int>(owner), count - before_seam);
 }
 
 const std::vector<Run>& ArcRuns::withDoubtfulWalls() {
   findRuns(begin_, begin_ + owners_.size(), Owner::kDoubtfulWall, runs_);
-  const bool circle = beams_->size > beams_->round;
+  const bool circle = beams_->size > beams_->revolution;
   if (circle && runs_.size() > 1 && runs_.front().first == begin_ &&
       runs_.back().end == begin_ + owners_.size() &&
       !isJump(begin_ + owners_.size() - 1, begin_ + owners_.size())) {
@@ -124,11 +128,11 @@ void ArcRuns::findRuns(std::size_t first, std::size_t end, Owner most,
 // The first return from `first` on that may be on something else: walls are long, so eight at once.
 std::size_t ArcRuns::skipWalls(std::size_t first, std::size_t end) const {
   constexpr std::uint64_t kAllWall = 0x0101010101010101 * static_cast<std::uint64_t>(Owner::kWall);
-  const std::size_t round = owners_.size();
+  const std::size_t revolution = owners_.size();
   std::size_t i = first + 1;
-  while (i + sizeof(kAllWall) <= end && i % round + sizeof(kAllWall) <= round) {
+  while (i + sizeof(kAllWall) <= end && i % revolution + sizeof(kAllWall) <= revolution) {
     std::uint64_t owners;
-    std::memcpy(&owners, owners_.data() + i % round, sizeof(owners));
+    std::memcpy(&owners, owners_.data() + i % revolution, sizeof(owners));
     if (owners != kAllWall) break;
     i += sizeof(owners);
   }
@@ -148,7 +152,7 @@ bool ArcRuns::isJump(std::size_t from, std::size_t to) const {
   const double dy = y - value(beams_->y, from);
   const double across =
       std::abs(value(beams_->direction_x, from) * y - value(beams_->direction_y, from) * x);
-  const double noise = kJump * kJump * value(beams_->range_variance, to);
+  const double noise = kRuns.jump * kRuns.jump * value(beams_->range_variance, to);
   return dx * dx + dy * dy > 2.0 * config_.max_radius * across + noise;
 }
 

@@ -8,13 +8,14 @@ namespace sightline::lines {
 
 void BeamArray::assign(const scan::Scan& scan, std::size_t first_beam) {
   const bool circle = scan.geometry()->isFullCircle();
+  has_jitter = scan.motion_noise.jitter > 0.0;
   reserve((circle ? 2 : 1) * scan.beams());
   takeDirections(scan.geometry());
   size = 0;
   appendValid(scan, circle ? first_beam : 0, scan.beams(), 0);
   if (circle) appendValid(scan, 0, first_beam, scan.beams());
-  round = size;
-  if (circle) repeatRound(scan.beams());
+  revolution = size;
+  if (circle) repeatRevolution(scan.beams());
   pad();
 }
 
@@ -24,6 +25,7 @@ void BeamArray::reserve(std::size_t returns) {
   for (auto* array : {&x, &y, &direction_x, &direction_y, &range_variance, &across_variance}) {
     array->resize(length);
   }
+  cross_covariance.resize(length);
   beam.resize(length);
 }
 
@@ -66,6 +68,7 @@ void BeamArray::appendRun(const scan::Scan& scan, std::size_t first, std::size_t
       across[i] += range * range * angular;
     }
   }
+  if (has_jitter) addJitter(scan, first, end);
   size += count;
 }
 
@@ -106,19 +109,38 @@ void BeamArray::placeMoved(const scan::Scan& scan, std::size_t first, std::size_
   }
 }
 
-void BeamArray::repeatRound(std::size_t beams) {
+void BeamArray::addJitter(const scan::Scan& scan, std::size_t first, std::size_t end) {
+  const double jitter = scan.motion_noise.jitter;
+  for (std::size_t i = first; i < end; ++i) {
+    const Eigen::Vector2d arm = scan.point(i) - scan.motion_noise.jitter_axis;
+    const Eigen::Vector2d direction = scan.direction(i);
+    // perp(arm) in the beam's axes.
+    const double along = direction.y() * arm.x() - direction.x() * arm.y();
+    const double across = direction.dot(arm);
+    const std::size_t at = size + i - first;
+    range_variance[at] += static_cast<float>(jitter * along * along);
+    across_variance[at] += static_cast<float>(jitter * across * across);
+    cross_covariance[at] = static_cast<float>(jitter * along * across);
+  }
+}
+
+void BeamArray::repeatRevolution(std::size_t beams) {
+  const auto repeat = [this](std::vector<float>& array) {
+    std::copy_n(array.begin(), revolution, array.begin() + static_cast<std::ptrdiff_t>(revolution));
+  };
   for (auto* array : {&x, &y, &direction_x, &direction_y, &range_variance, &across_variance}) {
-    std::copy_n(array->begin(), round, array->begin() + static_cast<std::ptrdiff_t>(round));
+    repeat(*array);
   }
-  for (std::size_t i = 0; i < round; ++i) {
-    beam[round + i] = beam[i] + static_cast<std::uint32_t>(beams);
+  if (has_jitter) repeat(cross_covariance);
+  for (std::size_t i = 0; i < revolution; ++i) {
+    beam[revolution + i] = beam[i] + static_cast<std::uint32_t>(beams);
   }
-  size = 2 * round;
+  size = 2 * revolution;
 }
 
 void BeamArray::pad() {
   for (std::size_t i = size; i < size + kPadding; ++i) {
-    x[i] = y[i] = direction_y[i] = across_variance[i] = 0.0F;
+    x[i] = y[i] = direction_y[i] = across_variance[i] = cross_covariance[i] = 0.0F;
     direction_x[i] = range_variance[i] = 1.0F;
     beam[i] = 0;
   }

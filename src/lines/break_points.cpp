@@ -9,11 +9,14 @@ namespace sightline::lines {
 
 namespace {
 
-// How far a break may move at once, and what a piece keeps of itself.
-constexpr std::size_t kReach = 24;
-constexpr std::size_t kKeep = 3;
-// A line of its own has a distance, a direction and a break.
-constexpr double kLineFreedom = 3.0;
+struct BreakPointsConstants {
+  // Chosen: how far a break may move at once, and what a piece keeps of itself [returns].
+  std::size_t reach = 24;
+  std::size_t keep = 3;
+  // Counted: a line of its own has a distance, a direction and a break.
+  double line_freedom = 3.0;
+};
+constexpr BreakPointsConstants kBreaks{};
 
 // Squared normalised residuals, bounded by the gate: a stray return costs the same wherever it is.
 Packet costsOf(const BeamArray& beams, std::size_t first, const LineEstimate& line, float bound) {
@@ -26,7 +29,7 @@ BreakPoints::BreakPoints(const BeamArray& beams, const LineExtractorConfig& conf
     : beams_(beams),
       gap_(config),
       gate_squared_(static_cast<float>(config.gate * config.gate)),
-      fragment_limit_(geometry::chiSquareLimit(config.gate, kLineFreedom)) {}
+      fragment_limit_(geometry::chiSquareLimit(config.gate, kBreaks.line_freedom)) {}
 
 bool BreakPoints::isOn(const LineEstimate& line, std::size_t i) const {
   return isWithin(beams_, i, line, gate_squared_);
@@ -72,9 +75,11 @@ void BreakPoints::trim(Piece& piece) const {
 }
 
 void BreakPoints::separate(Piece& before, Piece& after) const {
-  const std::size_t low = std::max(before.first + kKeep, before.end - std::min(before.end, kReach));
-  const std::size_t high = std::min(after.end - std::min(after.end, kKeep), after.first + kReach);
-  if (low >= high || after.first - before.end > kReach) return;
+  const std::size_t low =
+      std::max(before.first + kBreaks.keep, before.end - std::min(before.end, kBreaks.reach));
+  const std::size_t high =
+      std::min(after.end - std::min(after.end, kBreaks.keep), after.first + kBreaks.reach);
+  if (low >= high || after.first - before.end > kBreaks.reach) return;
   const std::size_t best = bestBreak(before.line, after.line, low, high).at;
   if (best < before.end) before.end = best;
   if (best > after.first) after.first = best;

@@ -12,14 +12,18 @@ namespace {
 
 using geometry::EndKind;
 
-// Lines closer to parallel than this make no corner.
-constexpr double kMinCornerSine = 0.1;
-constexpr double kTolerance = 3.0;  // standard deviations
-// A crossing this much less certain (variance) than where the beams say the wall ends proves
-// nothing: that goes for lines one of which is hardly known.
-constexpr double kVaguer = 9.0;
-// Beams between two walls that meet: few, as all that are not lost hit one or the other.
-constexpr std::size_t kMostBetween = 5;
+// Chosen: when the crossing of two lines is where both walls end.
+struct CornerConstants {
+  // Lines closer to parallel than this make no corner [sine].
+  double min_sine = 0.1;
+  double tolerance = 3.0;  // standard deviations
+  // A crossing this much less certain (variance) than where the beams say the wall ends proves
+  // nothing: that goes for lines one of which is hardly known.
+  double vaguer = 9.0;
+  // Beams between two walls that meet: few, as all that are not lost hit one or the other.
+  std::size_t most_between = 5;
+};
+constexpr CornerConstants kCorner{};
 
 // Of the distance of the line from a point at a position on it.
 double varianceAt(const LineEstimate& line, double position) {
@@ -49,7 +53,7 @@ EndPoint EndPoints::find(const Piece& piece, const Piece* neighbour, Side side) 
   const std::size_t next = side == Side::kStart ? neighbour->end - 1 : neighbour->first;
   EndPoint crossing;
   const bool meet = corner(piece, *neighbour, last, next, crossing);
-  return meet && crossing.variance < kVaguer * between.variance ? crossing : between;
+  return meet && crossing.variance < kCorner.vaguer * between.variance ? crossing : between;
 }
 
 bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t last,
@@ -57,7 +61,7 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
   const LineEstimate& a = piece.line;
   const LineEstimate& b = neighbour.line;
   const double sine = across(a, b);
-  if (std::abs(sine) < kMinCornerSine || !areNeighbours(last, next)) return false;
+  if (std::abs(sine) < kCorner.min_sine || !areNeighbours(last, next)) return false;
   const double x = (a.rho * b.normal_y - b.rho * a.normal_y) / sine;
   const double y = (b.rho * a.normal_x - a.rho * b.normal_x) / sine;
   const double on_a = a.alongX() * x + a.alongY() * y;
@@ -75,18 +79,18 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
   const auto last_on_a = static_cast<double>(of_last.position[0]);
   const auto next_on_b = static_cast<double>(of_next.position[0]);
   const double noise = 1.0 / static_cast<double>(std::min(of_last.weight[0], of_next.weight[0]));
-  const double slack = kTolerance * (std::sqrt(noise + va + vb)) / std::abs(sine);
+  const double slack = kCorner.tolerance * (std::sqrt(noise + va + vb)) / std::abs(sine);
   const double reach_a = std::abs(positionOn(beams_, next, a) - last_on_a);
   const double reach_b = std::abs(positionOn(beams_, last, b) - next_on_b);
   return std::abs(on_a - last_on_a) < slack + reach_a + spacingAt(piece, last) &&
          std::abs(on_b - next_on_b) < slack + reach_b + spacingAt(neighbour, next);
 }
 
-// On a full circle the numbers may be a round off.
+// On a full circle the numbers may be a revolution off.
 bool EndPoints::areNeighbours(std::size_t i, std::size_t k) const {
   const std::size_t count = scan_.beams();
   const std::size_t ahead = (beams_.beam[k] + 2 * count - beams_.beam[i]) % count;
-  return std::min(ahead, count - ahead) <= kMostBetween + 1;
+  return std::min(ahead, count - ahead) <= kCorner.most_between + 1;
 }
 
 double EndPoints::spacingAt(const Piece& piece, std::size_t i) const {
@@ -97,14 +101,15 @@ double EndPoints::spacingAt(const Piece& piece, std::size_t i) const {
 EndPoint EndPoints::edge(const Piece& piece, std::size_t last, Side side) const {
   const std::size_t beam = beams_.beam[last] % scan_.beams();
   const Meeting on = meet(piece.line, beam);
-  EndPoint point{on.position, on.variance, EndKind::kScanLimit};
+  EndPoint point{on.position, on.variance + on.jitter, EndKind::kScanLimit};
   const std::size_t telling = nextTellingBeam(scan_, beam, side == Side::kEnd ? 1 : -1);
   if (telling == beam) return point;
   const Meeting past = meet(piece.line, telling);
   if (!past.exists || past.range > scan_.geometry()->rangeMax()) return point;
   const double step = past.position - on.position;
   point.position += 0.5 * step;
-  point.variance += step * step / 12.0;
+  // Halfway between two beams that err by themselves.
+  point.variance += step * step / 12.0 - 0.5 * on.jitter;
   const bool behind = scan_.kinds()[telling] == scan::ReturnKind::kNothing ||
                       (scan_.isValid(telling) && scan_.ranges()[telling] > past.range);
   point.kind = behind ? EndKind::kOccludingEdge : EndKind::kOccluded;
@@ -119,11 +124,22 @@ EndPoints::Meeting EndPoints::meet(const LineEstimate& line, std::size_t beam) c
   const Eigen::Vector2d normal(line.normal_x, line.normal_y);
   const Eigen::Vector2d along(line.alongX(), line.alongY());
   const double facing = normal.dot(direction);
-  if (facing < static_cast<double>(kMinIncidence)) return {0.0, 0.0, 0.0, false};
+  if (facing < static_cast<double>(kMinIncidence)) return {0.0, 0.0, 0.0, 0.0, false};
   const double range = (line.rho - normal.dot(origin)) / facing;
   const double position = along.dot(origin + range * direction);
   const double slope = along.dot(direction) / facing;
-  return {position, range, slope * slope * varianceAt(line, position), range > 0.0};
+  const double jitter = jitterAt(origin + range * direction, along - slope * normal);
+  return {position, range, slope * slope * varianceAt(line, position), jitter, range > 0.0};
+}
+
+// A beam turned about the axis of the jitter meets the line elsewhere: `slide` is what the position
+// gains by a displacement of the beam.
+double EndPoints::jitterAt(const Eigen::Vector2d& point, const Eigen::Vector2d& slide) const {
+  const scan::MotionNoise& noise = scan_.motion_noise;
+  if (noise.jitter == 0.0) return 0.0;
+  const Eigen::Vector2d arm = point - noise.jitter_axis;
+  const double moved = slide.y() * arm.x() - slide.x() * arm.y();
+  return noise.jitter * moved * moved;
 }
 
 }  // namespace sightline::lines

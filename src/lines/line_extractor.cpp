@@ -15,11 +15,11 @@ namespace {
 // Pieces that something small in front of a wall falls into, at most.
 constexpr std::size_t kMostHiding = 4;
 
-Piece shifted(const Piece& piece, std::size_t round) {
+Piece shifted(const Piece& piece, std::size_t revolution) {
   Piece result = piece;
   for (std::size_t* index :
        {&result.first, &result.end, &result.refined_first, &result.refined_end}) {
-    *index += round;
+    *index += revolution;
   }
   return result;
 }
@@ -67,17 +67,18 @@ void LineExtractor::reserve(std::size_t beams) {
 
 void LineExtractor::findPieces(const scan::Scan& scan) {
   beams_.assign(scan);
-  if (beams_.size > beams_.round) {
-    // Begin the round where a piece ends, so that none is cut by the seam.
-    const std::size_t end = findPiecesIn(0, beams_.round, 1);
+  sweep_noise_.assign(scan, beams_);
+  if (beams_.size > beams_.revolution) {
+    // Begin the revolution where a piece ends, so that none is cut by the seam.
+    const std::size_t end = findPiecesIn(0, beams_.revolution, 1);
     pieces_.clear();
-    if (end < beams_.round) beams_.assign(scan, beams_.beam[end] % scan.beams());
+    if (end < beams_.revolution) beams_.assign(scan, beams_.beam[end] % scan.beams());
   }
-  findPiecesIn(0, beams_.round, beams_.round);
+  findPiecesIn(0, beams_.revolution, beams_.revolution);
 }
 
 std::size_t LineExtractor::findPiecesIn(std::size_t first, std::size_t end, std::size_t most) {
-  LineFilter filter(beams_, config_);
+  LineFilter filter(beams_, sweep_noise_, config_);
   std::size_t next = first;
   while (next < end && pieces_.size() < most) {
     if (!filter.start(next, end)) {
@@ -119,12 +120,12 @@ void LineExtractor::placeBreaks() {
     breaks.separate(pieces_[i], pieces_[i + 1]);
   }
   if (pieces_.size() < 2) return;
-  if (beams_.size > beams_.round) {
-    // The first piece follows on the last one, a round on.
+  if (beams_.size > beams_.revolution) {
+    // The first piece follows on the last one, a revolution on.
     std::rotate(pieces_.begin(), pieces_.begin() + 1, pieces_.end());
     Piece& last = pieces_[pieces_.size() - 2];
     Piece& first = pieces_.back();
-    first = shifted(first, beams_.round);
+    first = shifted(first, beams_.revolution);
     breaks.extendForward(last, first.first);
     breaks.extendBackward(first, last.end);
     breaks.separate(last, first);
@@ -133,7 +134,7 @@ void LineExtractor::placeBreaks() {
 
 void LineExtractor::mergePieces() {
   if (pieces_.empty()) return;
-  const Merging merging(beams_, config_);
+  const Merging merging(beams_, sweep_noise_, config_);
   std::size_t kept = 0;
   for (std::size_t i = 1; i < pieces_.size(); ++i) {
     const std::size_t merged = mergeWithOneFrom(i, merging, pieces_[kept]);
@@ -144,8 +145,8 @@ void LineExtractor::mergePieces() {
     }
   }
   pieces_.resize(kept + 1);
-  if (beams_.size > beams_.round && pieces_.size() > 1 &&
-      merging.merge(pieces_.back(), shifted(pieces_.front(), beams_.round))) {
+  if (beams_.size > beams_.revolution && pieces_.size() > 1 &&
+      merging.merge(pieces_.back(), shifted(pieces_.front(), beams_.revolution))) {
     pieces_.erase(pieces_.begin());
   }
 }
@@ -164,7 +165,7 @@ std::size_t LineExtractor::mergeWithOneFrom(std::size_t first, const Merging& me
 void LineExtractor::extendBehindSmallThings() {
   const BreakPoints breaks(beams_, config_);
   const std::size_t count = pieces_.size();
-  const bool circle = beams_.size > beams_.round;
+  const bool circle = beams_.size > beams_.revolution;
   for (std::size_t i = 0; i < count; ++i) {
     Piece& piece = pieces_[i];
     if (!isWall(piece, config_) || 2.0 * extent(beams_, piece) < config_.min_length) continue;
@@ -174,7 +175,7 @@ void LineExtractor::extendBehindSmallThings() {
     }
     if (i + 1 < count && isSmall(pieces_[i + 1])) {
       const std::size_t limit = i + 2 < count ? pieces_[i + 2].first
-                                : circle      ? pieces_.front().first + beams_.round
+                                : circle      ? pieces_.front().first + beams_.revolution
                                               : beams_.size;
       breaks.extendForward(piece, pieces_[i + 1].end, limit);
     }
@@ -197,7 +198,7 @@ void LineExtractor::dropHidden() {
 }
 
 void LineExtractor::report(const scan::Scan& scan) {
-  const bool circle = beams_.size > beams_.round;
+  const bool circle = beams_.size > beams_.revolution;
   const EndPoints ends(scan, beams_);
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
@@ -209,7 +210,11 @@ void LineExtractor::report(const scan::Scan& scan) {
                                                 : nullptr;
     const EndPoint start = ends.start(piece, before);
     const EndPoint end = ends.end(piece, after);
-    if (isLong(piece, start, end)) segments_.push_back(segmentOf(piece, start, end, scan));
+    if (!isLong(piece, start, end)) continue;
+    segments_.push_back(segmentOf(piece, start, end, scan));
+    if (!sweep_noise_.isZero()) {
+      sweep_noise_.widen(piece, config_.gate * config_.gate, segments_.back());
+    }
   }
   inOrderOfBeams(segments_);
   inOrderOfBeams(arcs_);

@@ -10,28 +10,34 @@ namespace sightline::lines {
 
 namespace {
 
-constexpr std::size_t kMostToStart = 64;
-// Standard deviation of the direction up to which an update is linear [rad].
-constexpr double kGrownUp = 0.02;
 constexpr double kEverything = 1e12;
-// Observations validated against one prediction: never so many that the line would be predicted far
-// beyond what it is known from.
-constexpr double kStrideShare = 0.5;
-constexpr std::size_t kLongestStride = 32;
-// Times the gate, squared, in which a young line keeps its observations.
-constexpr double kLenience = 4.0;
+
+struct LineFilterConstants {
+  // Chosen: a batch start of more returns than this is given up.
+  std::size_t most_to_start = 64;
+  // Standard deviation of the direction up to which an update is linear [rad]. A line known worse
+  // is linearised anew over all its returns within `uncertain_gate` times the squared gate.
+  double linear_phi_sigma = 0.02;
+  double uncertain_gate = 4.0;
+  // Observations validated against one prediction, for speed: never so many that the line would be
+  // predicted far beyond what it is known from.
+  double stride_ratio = 0.5;  // of the line's beams
+  std::size_t longest_stride = 32;
+};
+constexpr LineFilterConstants kFilter{};
 
 // The validation gate of one prediction.
 class Gate {
  public:
-  Gate(const LineEstimate& line, double gate_squared)
+  Gate(const LineEstimate& line, double gate_squared, double motion_noise)
       : gate_squared_(static_cast<float>(gate_squared)) {
     // About the middle of the line, where rounding does least harm.
     const Information& info = line.information;
     const double middle = -info.rho_phi / info.rho_rho;
     const double scale = gate_squared / info.determinant();
     middle_ = static_cast<float>(middle);
-    rho_rho_ = static_cast<float>(scale * info.shifted(middle).phi_phi);
+    rho_rho_ =
+        static_cast<float>(scale * info.shifted(middle).phi_phi + gate_squared * motion_noise);
     phi_phi_ = static_cast<float>(scale * info.rho_rho);
   }
 
@@ -86,12 +92,17 @@ struct LineFilter::Moments {
   }
 };
 
-LineFilter::LineFilter(const BeamArray& beams, const LineExtractorConfig& config)
-    : beams_(beams), config_(config), gap_(config), gate_squared_(config.gate * config.gate) {}
+LineFilter::LineFilter(const BeamArray& beams, const SweepNoise& sweep_noise,
+                       const LineExtractorConfig& config)
+    : beams_(beams),
+      sweep_noise_(sweep_noise),
+      config_(config),
+      gap_(config),
+      gate_squared_(config.gate * config.gate) {}
 
 bool LineFilter::start(std::size_t first, std::size_t end) {
   const double wanted = config_.start_phi_sigma * config_.start_phi_sigma;
-  const std::size_t last = std::min(end, first + kMostToStart);
+  const std::size_t last = std::min(end, first + kFilter.most_to_start);
   const auto axis_x = static_cast<double>(beams_.direction_x[first]);
   const auto axis_y = static_cast<double>(beams_.direction_y[first]);
   Moments moments;
@@ -127,15 +138,15 @@ bool LineFilter::fitStart(const Moments& moments, std::size_t first, std::size_t
   const NormalEquations equations = linearise(beams_, first, first + count, line, kEverything);
   if (equations.beams < static_cast<double>(count) || !equations.information.isDetermined())
     return false;
-  const double fallen = stepTo(equations, line);
+  const double decrease = stepTo(equations, line);
   const double limit = geometry::chiSquareLimit(config_.gate, static_cast<double>(count) - 2.0) *
                        config_.misfit * config_.misfit;
-  if (!(equations.chi_square - fallen <= limit)) return false;
+  if (!(equations.chi_square - decrease <= limit)) return false;
   piece_.line = line;
   piece_.first = first;
   piece_.end = first + count;
   piece_.beams = equations.beams;
-  piece_.chi_square = equations.chi_square - fallen;
+  piece_.chi_square = equations.chi_square - decrease;
   return true;
 }
 
@@ -148,7 +159,7 @@ const Piece& LineFilter::follow(std::size_t end) {
     if (taken > 0) {
       next += taken;
       piece_.end = next;
-      if (isYoung()) relinearise();
+      if (isDirectionUncertain()) relinearise();
       continue;
     }
     const std::size_t ahead = lookAhead(next, end);
@@ -164,8 +175,8 @@ std::size_t LineFilter::takeStride(std::size_t next, std::size_t end) {
   const std::size_t stride = strideLength();
   const std::size_t stop = next + stride;
   if (stride <= kBlock || stop > end || next < careful_until_) return 0;
-  if (isYoung() || !isUnbroken(piece_.end - 1, stop - 1)) return 0;
-  const Gate gate(piece_.line, gate_squared_);
+  if (isDirectionUncertain() || !isUnbroken(piece_.end - 1, stop - 1)) return 0;
+  const Gate gate(piece_.line, gate_squared_, motionNoise(stop - 1));
   NormalSums sums(positionOn(beams_, next, piece_.line));
   Packet excess = all(0.0F);
   for (std::size_t i = next; i < stop; i += kLanes) {
@@ -182,8 +193,8 @@ std::size_t LineFilter::takeStride(std::size_t next, std::size_t end) {
 }
 
 std::size_t LineFilter::strideLength() const {
-  const auto length = static_cast<std::size_t>(kStrideShare * piece_.beams);
-  return std::min(length / kBlock * kBlock, kLongestStride);
+  const auto length = static_cast<std::size_t>(kFilter.stride_ratio * piece_.beams);
+  return std::min(length / kBlock * kBlock, kFilter.longest_stride);
 }
 
 SIGHTLINE_VECTOR_CLONES
@@ -207,7 +218,7 @@ std::size_t LineFilter::takeSome(std::size_t next, std::size_t end) {
 
 SIGHTLINE_VECTOR_CLONES
 LineFilter::Validation LineFilter::validate(std::size_t first) const {
-  const Gate gate(piece_.line, gate_squared_);
+  const Gate gate(piece_.line, gate_squared_, motionNoise(first));
   Validation validation;
   for (std::size_t i = 0; i < kBlock; i += kLanes) {
     BeamResiduals& residuals = validation.residuals[i / kLanes];
@@ -235,27 +246,34 @@ std::size_t LineFilter::countBridged(const Validation& validation, std::size_t n
   return count;
 }
 
-void LineFilter::update(NormalEquations fresh) {
-  fresh.information += piece_.line.information;
-  const double fallen = stepTo(fresh, piece_.line);
-  piece_.beams += fresh.beams;
-  piece_.chi_square += fresh.chi_square - fallen;
+// Of the way from the middle of what the line is known from.
+double LineFilter::motionNoise(std::size_t next) const {
+  if (sweep_noise_.isZero()) return 0.0;
+  return sweep_noise_.ofPrediction(piece_.line, piece_.first + piece_.size() / 2,
+                                   std::min(next, beams_.size - 1));
 }
 
-bool LineFilter::isYoung() const {
+void LineFilter::update(NormalEquations fresh) {
+  fresh.information += piece_.line.information;
+  const double decrease = stepTo(fresh, piece_.line);
+  piece_.beams += fresh.beams;
+  piece_.chi_square += fresh.chi_square - decrease;
+}
+
+bool LineFilter::isDirectionUncertain() const {
   const Information& info = piece_.line.information;
-  return info.rho_rho > kGrownUp * kGrownUp * info.determinant();
+  return info.rho_rho > kFilter.linear_phi_sigma * kFilter.linear_phi_sigma * info.determinant();
 }
 
 // Far from the estimate the linearisation does not hold: as long as the direction is so uncertain,
 // the update is iterated over all observations so far.
 void LineFilter::relinearise() {
-  const NormalEquations equations =
-      linearise(beams_, piece_.first, piece_.end, piece_.line, kLenience * gate_squared_);
+  const NormalEquations equations = linearise(beams_, piece_.first, piece_.end, piece_.line,
+                                              kFilter.uncertain_gate * gate_squared_);
   if (!equations.information.isDetermined()) return;
-  const double fallen = stepTo(equations, piece_.line);
+  const double decrease = stepTo(equations, piece_.line);
   piece_.beams = equations.beams;
-  piece_.chi_square = equations.chi_square - fallen;
+  piece_.chi_square = equations.chi_square - decrease;
 }
 
 // Two validated returns in a row, not too far on, take the line up again. Returns how many to skip;

@@ -42,24 +42,33 @@ NormalEquations fusion(const LineEstimate& before, const LineEstimate& after, do
 
 }  // namespace
 
-double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after, double position) {
+double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after, double position,
+                          const Eigen::Matrix2d& motion_noise) {
   const Difference d(before, after, position);
   const double da = 1.0 / d.of_before.determinant();
   const double db = 1.0 / d.of_after.determinant();
-  const double rho_rho = da * d.of_before.phi_phi + db * d.of_after.phi_phi;
-  const double rho_phi = -da * d.of_before.rho_phi - db * d.of_after.rho_phi;
-  const double phi_phi = da * d.of_before.rho_rho + db * d.of_after.rho_rho;
+  const double rho_rho = da * d.of_before.phi_phi + db * d.of_after.phi_phi + motion_noise(0, 0);
+  const double rho_phi = -da * d.of_before.rho_phi - db * d.of_after.rho_phi + motion_noise(0, 1);
+  const double phi_phi = da * d.of_before.rho_rho + db * d.of_after.rho_rho + motion_noise(1, 1);
   const double determinant = rho_rho * phi_phi - rho_phi * rho_phi;
   return (phi_phi * d.rho * d.rho - 2.0 * rho_phi * d.rho * d.phi + rho_rho * d.phi * d.phi) /
          determinant;
 }
 
-Merging::Merging(const BeamArray& beams, const LineExtractorConfig& config)
+Merging::Merging(const BeamArray& beams, SweepNoise& sweep_noise, const LineExtractorConfig& config)
     : beams_(beams),
+      sweep_noise_(sweep_noise),
       gap_(config),
       gate_(config.gate),
-      misfit_(config.misfit),
+      chi_square_ratio_(config.misfit),
       distance_limit_(geometry::chiSquareLimitOf2(config.gate)) {}
+
+bool Merging::mayBeOne(const Piece& before, const Piece& after, double position) const {
+  const Eigen::Matrix2d motion =
+      sweep_noise_.isZero() ? Eigen::Matrix2d::Zero()
+                            : sweep_noise_.ofDifference(before, after, position, gate_ * gate_);
+  return mahalanobisSquared(before.line, after.line, position, motion) <= distance_limit_;
+}
 
 bool Merging::merge(Piece& before, const Piece& after) const {
   const LineEstimate& line = before.line;
@@ -68,13 +77,14 @@ bool Merging::merge(Piece& before, const Piece& after) const {
   const double next_position = positionOn(beams_, after.first, line);
   if (!gap_.mayBridge(beams_, before.end - 1, after.first, next_position - position)) return false;
   const double between = 0.5 * (position + next_position);
-  if (mahalanobisSquared(line, after.line, between) > distance_limit_) return false;
+  if (!mayBeOne(before, after, between)) return false;
   Piece joined = before;
   joined.end = after.end;
   joined.beams = 0.0;  // to be refined in full
   stepTo(fusion(line, after.line, between), joined.line);
   if (!refine(beams_, gate_ * gate_, joined)) return false;
-  if (joined.chi_square > geometry::chiSquareLimit(gate_, joined.beams - 2.0) * misfit_ * misfit_)
+  if (joined.chi_square >
+      geometry::chiSquareLimit(gate_, joined.beams - 2.0) * chi_square_ratio_ * chi_square_ratio_)
     return false;
   before = joined;
   return true;

@@ -30,10 +30,10 @@ NormalEquations linearise(const BeamArray& beams, std::size_t first, std::size_t
   if (first >= end) return {};
   NormalSums sums(positionOn(beams, first + (end - first) / 2, line));
   const auto gate = static_cast<float>(gate_squared);
-  const auto add = [&](std::size_t i, const Packet& share) {
+  const auto add = [&](std::size_t i, const Packet& taken) {
     const BeamResiduals residuals = residualsOf(beams, i, line);
     const Packet squared = residuals.squared();
-    sums.add(residuals, squared, squared <= gate ? share : all(0.0F));
+    sums.add(residuals, squared, squared <= gate ? taken : all(0.0F));
   };
   std::size_t i = first;
   for (; i + kLanes <= end; i += kLanes) add(i, all(1.0F));

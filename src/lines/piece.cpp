@@ -10,21 +10,25 @@ namespace sightline::lines {
 
 namespace {
 
-constexpr int kMaxSteps = 10;
-// A step this far below the standard deviations [σ²] leaves an error of second order in it.
-constexpr double kSmallStep = 0.1;
-// Share of its returns that may come or go for the linearisation of a piece to hold.
-constexpr double kFewReturns = 0.2;
+// Gauss-Newton.
+struct RefineConstants {
+  int most_steps = 10;
+  // A step this far below the standard deviations [σ²] leaves an error of second order in it.
+  double small_step = 0.1;
+  // Chosen: ratio of its returns that may come or go for the linearisation of a piece to hold.
+  double few_returns = 0.2;
+};
+constexpr RefineConstants kRefine{};
 
 // A step to the maximum of likelihood; how far it was, negative where there is none.
 double take(const NormalEquations& equations, Piece& piece) {
   if (equations.beams < 3.0 || !equations.information.isDetermined()) return -1.0;
-  const double fallen = stepTo(equations, piece.line);
+  const double decrease = stepTo(equations, piece.line);
   piece.beams = equations.beams;
-  piece.chi_square = std::max(0.0, equations.chi_square - fallen);
+  piece.chi_square = std::max(0.0, equations.chi_square - decrease);
   piece.refined_first = piece.first;
   piece.refined_end = piece.end;
-  return fallen;
+  return decrease;
 }
 
 std::size_t distance(std::size_t a, std::size_t b) {
@@ -34,7 +38,7 @@ std::size_t distance(std::size_t a, std::size_t b) {
 bool hasChangedLittle(const Piece& piece) {
   const std::size_t changed =
       distance(piece.first, piece.refined_first) + distance(piece.end, piece.refined_end);
-  return static_cast<double>(changed) <= kFewReturns * piece.beams;
+  return static_cast<double>(changed) <= kRefine.few_returns * piece.beams;
 }
 
 // At the maximum of likelihood the gradient is zero: what is left is that of the returns that came
@@ -59,14 +63,14 @@ NormalEquations changed(const BeamArray& beams, double gate_squared, const Piece
 bool refine(const BeamArray& beams, double gate_squared, Piece& piece) {
   if (piece.first == piece.refined_first && piece.end == piece.refined_end) return true;
   if (hasChangedLittle(piece)) {
-    const double fallen = take(changed(beams, gate_squared, piece), piece);
-    if (fallen >= 0.0 && fallen < kSmallStep) return true;
+    const double decrease = take(changed(beams, gate_squared, piece), piece);
+    if (decrease >= 0.0 && decrease < kRefine.small_step) return true;
   }
-  for (int i = 0; i < kMaxSteps; ++i) {
-    const double fallen =
+  for (int i = 0; i < kRefine.most_steps; ++i) {
+    const double decrease =
         take(linearise(beams, piece.first, piece.end, piece.line, gate_squared), piece);
-    if (fallen < 0.0) return false;
-    if (fallen < kSmallStep) break;
+    if (decrease < 0.0) return false;
+    if (decrease < kRefine.small_step) break;
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "sightline/fitting/line_fit.h"
+#include "sightline/lines/motion_sum.h"
 
 namespace sightline::lines {
 
@@ -16,6 +17,24 @@ using geometry::Pose2;
 // Of the sensor at a beam, in its frame at the stamp.
 Pose2 poseAt(const scan::Scan& scan, std::size_t beam) {
   return scan.sensorMotion().empty() ? Pose2() : scan.sensorMotion()[beam];
+}
+
+// Variances of an independent error of the head's angle at each end of a stretch of time, as a turn
+// about its axis: (x, y, θ) of the sensor.
+Eigen::Matrix3d ofJitter(const scan::Scan& scan, std::size_t beam, double ends) {
+  const Eigen::Vector2d arm = poseAt(scan, beam).translation() - scan.motion_noise.jitter_axis;
+  const Eigen::Vector3d turn(-arm.y(), arm.x(), 1.0);
+  return ends * scan.motion_noise.jitter * turn * turn.transpose();
+}
+
+// Covariance of the sensor's coordinates at a beam, in its frame at the stamp.
+Eigen::Matrix3d motionTo(const scan::Scan& scan, std::size_t beam) {
+  return motionCovariance(scan, beam) + ofJitter(scan, beam, 1.0);
+}
+
+// What comes on top between two beams (eq. 23 for any planar motion).
+Eigen::Matrix3d motionBetween(const scan::Scan& scan, std::size_t from, std::size_t to) {
+  return motionCovariance(scan, to) - motionCovariance(scan, from) + ofJitter(scan, to, 2.0);
 }
 
 double predictedRange(const PolarLine& line, double angle) {  // eq. 27
@@ -63,14 +82,35 @@ bool PlainExtractor::start(const scan::Scan& scan, const std::vector<std::size_t
   }
   track = {*line, beams.front(), beams.back(), beams.size(), chi_square};
   track.line.covariance = information.inverse();
+  track.motion = motionTo(scan, track.last);
   return track.line.covariance.allFinite();
 }
 
-// Eqs 20-36. False where the observation is not validated.
+// Eqs 20-25: to the sensor's frame at a beam.
+void PlainExtractor::predict(const scan::Scan& scan, std::size_t beam, Track& track) const {
+  if (!scan.sensorMotion().empty()) {
+    const Pose2 T_now_before = poseAt(scan, beam).inverse() * poseAt(scan, track.last);
+    track.line_motion =
+        geometry::transformJacobianLine(T_now_before, track.line) * track.line_motion;
+    track.line = geometry::transform(T_now_before, track.line);
+  }
+  if (scan.motion_noise.isZero()) return;
+  // A sensor that stands further on than it should sees the line the other way (eqs 24, 25).
+  Eigen::Matrix3d T_now_stamp = Eigen::Matrix3d::Identity();
+  T_now_stamp.topLeftCorner<2, 2>() = poseAt(scan, beam).rotation().transpose();
+  const Eigen::Matrix<double, 2, 3> jacobian =
+      -geometry::transformJacobianPose(Pose2(), track.line) * T_now_stamp;
+  const Eigen::Matrix3d q = motionBetween(scan, track.last, beam);
+  track.line.covariance += jacobian * q * jacobian.transpose();
+  track.line_motion += jacobian * q;
+  track.motion += q;
+}
+
+// Eqs 26-36. False where the observation is not validated.
 bool PlainExtractor::update(const scan::Scan& scan, std::size_t beam, Track& track) const {
-  const Pose2 T_now_before = poseAt(scan, beam).inverse() * poseAt(scan, track.last);
-  PolarLine line =
-      scan.sensorMotion().empty() ? track.line : geometry::transform(T_now_before, track.line);
+  Track next = track;
+  predict(scan, beam, next);
+  PolarLine& line = next.line;
   const double angle = scan.geometry()->angles()[beam];
   const Eigen::RowVector2d h = observationJacobian(line, angle);
   const double innovation = scan.ranges()[beam] - predictedRange(line, angle);
@@ -80,17 +120,43 @@ bool PlainExtractor::update(const scan::Scan& scan, std::size_t beam, Track& tra
   line.rho += gain[0] * innovation;
   line.phi += gain[1] * innovation;
   line.covariance -= gain * s * gain.transpose();
-  track = {geometry::canonical(line), track.first, beam, track.beams + 1,
-           track.chi_square + innovation * innovation / s};
+  next.line_motion -= gain * h * next.line_motion;
+  if (line.rho < 0.0) next.line_motion.row(0) = -next.line_motion.row(0);
+  line = geometry::canonical(line);
+  next.last = beam;
+  ++next.beams;
+  next.chi_square += innovation * innovation / s;
+  track = next;
   return true;
+}
+
+PolarLine PlainExtractor::atStamp(const scan::Scan& scan, const Track& track) const {
+  const Pose2 T_stamp_last = poseAt(scan, track.last);
+  PolarLine line = geometry::transform(T_stamp_last, track.line);
+  if (scan.motion_noise.isZero()) return line;
+  const Eigen::Matrix2d by_line = geometry::transformJacobianLine(T_stamp_last, track.line);
+  const Eigen::Matrix<double, 2, 3> by_motion =
+      geometry::transformJacobianPose(T_stamp_last, track.line);
+  const Eigen::Matrix2d cross = by_line * track.line_motion * by_motion.transpose();
+  line.covariance += by_motion * track.motion * by_motion.transpose() + cross + cross.transpose();
+  return line;
 }
 
 void PlainExtractor::report(const scan::Scan& scan, const Track& track) {
   if (track.beams < static_cast<std::size_t>(config_.min_beams)) return;
   geometry::LineSegment segment;
-  segment.line = geometry::transform(poseAt(scan, track.last), track.line);
+  segment.line = atStamp(scan, track);
   segment.ends = {segment.line.project(scan.point(track.first)),
                   segment.line.project(scan.point(track.last))};
+  const Eigen::Vector2d along = segment.line.direction();
+  const auto sigmaAlong = [&](std::size_t beam) {
+    const Eigen::RowVector3d moved =
+        along.transpose() * motionJacobian(scan, beam, scan.point(beam));
+    return std::sqrt(along.dot(scan.covariance(beam) * along) +
+                     moved * motionTo(scan, beam) * moved.transpose());
+  };
+  segment.start_sigma = sigmaAlong(track.first);
+  segment.end_sigma = sigmaAlong(track.last);
   segment.first_beam = track.first;
   segment.last_beam = track.last;
   segment.beams = track.beams;

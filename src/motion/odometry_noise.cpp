@@ -28,6 +28,19 @@ void OdometryNoise::visit(config::FieldVisitor& visitor) {
                   "spread of the heading after one radian of turn (jensfelt section 4.1)"});
 }
 
+OdometryNoise OdometryNoise::unmeasured() {
+  OdometryNoise noise;
+  noise.scale_mean = 1.0;
+  noise.scale_sigma = 0.02;
+  noise.heading_bias_per_metre = 0.0;
+  noise.steering_bias = 0.0;
+  noise.distance_sigma = 0.02;
+  noise.lateral_sigma = 0.01;
+  noise.heading_sigma_per_metre = 0.02;
+  noise.steering_sigma = 0.05;
+  return noise;
+}
+
 geometry::Pose2 expectedStep(const OdometryNoise& noise, const geometry::Pose2& measured,
                              double scale) {
   Eigen::Vector3d tangent = measured.log();

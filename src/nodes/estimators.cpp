@@ -1,103 +1,92 @@
 #include <memory>
-#include <string>
-#include <vector>
+#include <optional>
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include "nodes/laser_odometry_config.h"
-#include "nodes/line_extractor_config.h"
-#include "nodes/room_tracker_config.h"
-#include "sightline/bridge/mountings.h"
-#include "sightline/bridge/parameter_writer.h"
-#include "sightline/pipeline/offline_config.h"
+#include "nodes/line_controls.h"
+#include "nodes/odometry_controls.h"
+#include "nodes/room_controls.h"
+#include "sightline/bridge/bag_feed.h"
+#include "sightline/bridge/line_output.h"
+#include "sightline/bridge/live_feed.h"
+#include "sightline/pipeline/estimators_config.h"
 
 namespace sightline::nodes {
 
-std::shared_ptr<void> makeLineExtractor(ros::NodeHandle node, ros::NodeHandle private_node);
-std::shared_ptr<void> makeRoomTracker(ros::NodeHandle node, ros::NodeHandle private_node);
-std::shared_ptr<void> makeLaserOdometry(ros::NodeHandle node, ros::NodeHandle private_node);
-
 namespace {
 
-/// The estimators that a configuration file asks for, live: the file is the one that `offline`
-/// takes. A line extractor for every scan topic (their topics lie below the scan's name where there
-/// are several), the room tracker where there is a rooms file, and the laser odometry, of the first
-/// scanner, where there is something said about it.
+/// The estimators that a configuration file asks for, live, on one feed: the file is the one that
+/// `offline` takes. Lines of every scanner, the room tracker where there is a rooms file, and the
+/// odometry from scans where something is said about it.
 class EstimatorsNode {
  public:
-  explicit EstimatorsNode(const pipeline::OfflineConfig& config);
+  EstimatorsNode(ros::NodeHandle node, ros::NodeHandle private_node,
+                 const pipeline::EstimatorsConfig& config)
+      : set_{true, config.rooms.has_value(), config.odometry.has_value()},
+        estimators_(config, set_),
+        updater_(node, private_node),
+        output_(node),
+        lines_(output_, config.input),
+        line_controls_(ros::NodeHandle(node, "line_extractor"), config.lines, estimators_) {
+    updater_.setHardwareID("none");
+    broadcaster_.sendTransform(bridge::mountingTransforms(config).transforms);
+    if (set_.rooms) addRooms(node, config);
+    if (set_.odometry) {
+      odometry_.emplace(output_, config.frames, /*publish_tf=*/false);
+      odometry_controls_.emplace(ros::NodeHandle(node, "laser_odometry"), *estimators_.odometry(),
+                                 *odometry_, updater_);
+    }
+    feed_.emplace(node, config.input, config.frames, pipeline::FeedNeeds{}, updater_,
+                  [this](pipeline::LocatedScan located) { take(std::move(located)); });
+    timer_ = node.createSteadyTimer(ros::WallDuration(0.5),
+                                    [this](const ros::SteadyTimerEvent&) { updater_.update(); });
+  }
 
  private:
-  void addLineExtractor(const pipeline::OfflineConfig& config, const std::string& scan);
-  void addRoomTracker(const pipeline::OfflineConfig& config);
-  void addLaserOdometry(const pipeline::OfflineConfig& config);
+  void addRooms(const ros::NodeHandle& node, const pipeline::EstimatorsConfig& config) {
+    const auto& map = estimators_.rooms()->map();
+    rooms_.emplace(output_, bridge::RoomOutputConfig{true, 0.1}, config.frames, *config.rooms, map);
+    room_controls_.emplace(node, ros::NodeHandle(node, "room_tracker"), *config.rooms,
+                           config.frames.map, *estimators_.rooms(), *rooms_, updater_);
+  }
 
+  void take(pipeline::LocatedScan located) {
+    const auto estimates = estimators_.take(std::move(located));
+    lines_.write(estimates);
+    if (odometry_) {
+      odometry_->write(estimates);
+      odometry_controls_->note(estimates);
+    }
+    if (rooms_) rooms_->write(estimates, estimators_.rooms()->hasPose());
+  }
+
+  pipeline::EstimatorSet set_;
+  pipeline::Estimators estimators_;
+  diagnostic_updater::Updater updater_;
+  bridge::Output output_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
-  std::vector<std::shared_ptr<void>> estimators_;
+  bridge::LineOutput lines_;
+  LineControls line_controls_;
+  std::optional<bridge::RoomOutput> rooms_;
+  std::optional<RoomControls> room_controls_;
+  std::optional<bridge::OdometryOutput> odometry_;
+  std::optional<OdometryControls> odometry_controls_;
+  std::optional<bridge::LiveFeed> feed_;
+  ros::SteadyTimer timer_;
 };
-
-EstimatorsNode::EstimatorsNode(const pipeline::OfflineConfig& config) {
-  broadcaster_.sendTransform(bridge::mountingTransforms(config).transforms);
-  for (const std::string& scan : config.scans) addLineExtractor(config, scan);
-  if (config.rooms) addRoomTracker(config);
-  if (config.odometry) addLaserOdometry(config);
-}
-
-void EstimatorsNode::addLineExtractor(const pipeline::OfflineConfig& config,
-                                      const std::string& scan) {
-  const ros::NodeHandle outside;
-  const std::string inside = config.scans.size() > 1 ? outside.resolveName(scan) : "";
-  LineExtractorNodeConfig parameters;
-  parameters.noise = config.noise;
-  parameters.lines = config.lines;
-  const ros::NodeHandle node(inside,
-                             {{ros::names::append(inside, "scan"), outside.resolveName(scan)}});
-  const ros::NodeHandle private_node(node, "line_extractor");
-  bridge::writeParameters(private_node, parameters);
-  estimators_.push_back(makeLineExtractor(node, private_node));
-}
-
-void EstimatorsNode::addRoomTracker(const pipeline::OfflineConfig& config) {
-  RoomTrackerNodeConfig parameters;
-  parameters.rooms = config.rooms->map;
-  parameters.scans.clear();
-  for (const std::string& scan : config.scans) parameters.scans += " " + scan;
-  parameters.map_frame = config.frames.map;
-  parameters.odom_frame = config.frames.odom;
-  parameters.base_frame = config.frames.base;
-  parameters.initial_pose = config.rooms->initial_pose;
-  parameters.initial_sigma = config.rooms->initial_sigma;
-  parameters.noise = config.noise;
-  parameters.tracker = config.rooms->tracker;
-  const ros::NodeHandle private_node("room_tracker");
-  bridge::writeParameters(private_node, parameters);
-  estimators_.push_back(makeRoomTracker(ros::NodeHandle(), private_node));
-}
-
-void EstimatorsNode::addLaserOdometry(const pipeline::OfflineConfig& config) {
-  LaserOdometryNodeConfig parameters;
-  parameters.odom_frame = config.frames.odom;
-  parameters.base_frame = config.frames.base;
-  parameters.noise = config.noise;
-  parameters.odometry = *config.odometry;
-  const ros::NodeHandle outside;
-  const ros::NodeHandle node(
-      "", {{outside.resolveName("scan"), outside.resolveName(config.scans.front())}});
-  const ros::NodeHandle private_node("laser_odometry");
-  bridge::writeParameters(private_node, parameters);
-  estimators_.push_back(makeLaserOdometry(node, private_node));
-}
 
 }  // namespace
 
-std::shared_ptr<void> makeEstimators(ros::NodeHandle, ros::NodeHandle private_node) {
+std::shared_ptr<void> makeEstimators(ros::NodeHandle node, ros::NodeHandle private_node) {
   const auto path = private_node.param<std::string>("config", "");
   if (path.empty()) {
     throw config::Error(private_node.getNamespace(), 0, "config",
                         "has to name a configuration file");
   }
-  return std::make_shared<EstimatorsNode>(pipeline::OfflineConfig::readFile(path));
+  return std::make_shared<EstimatorsNode>(node, private_node,
+                                          pipeline::EstimatorsConfig::readFile(path));
 }
 
 }  // namespace sightline::nodes

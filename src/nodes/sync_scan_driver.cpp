@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -6,23 +5,24 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include "nodes/sync_scan_driver_config.h"
 #include "sightline/bridge/active_sensor_topics.h"
 #include "sightline/bridge/device_diagnostics.h"
 #include "sightline/bridge/parameters.h"
+#include "sightline/bridge/pose_conversion.h"
+#include "sightline/bridge/time.h"
 #include "sightline/driver/device_session.h"
 #include "sightline/driver/head_joint.h"
 #include "sightline/driver/joint_samples.h"
 #include "sightline/driver/scan_queue.h"
-#include "sightline/simulation/active_sensor_profile.h"
+#include "sightline/triangulation/sensor_profile.h"
 
 namespace sightline::nodes {
 
 namespace {
 
-// robot_state_publisher keeps one message waiting: what comes faster is lost to tf.
-constexpr std::chrono::milliseconds kJointInterval{5};
 constexpr std::int64_t kCorrection = 1'000'000'000;  // [ns]
 
 class SyncScanDriverNode {
@@ -33,20 +33,22 @@ class SyncScanDriverNode {
   SyncScanDriverNode& operator=(const SyncScanDriverNode&) = delete;
 
  private:
+  void broadcastHead(const driver::HeadJoint& joint);
   void work();
-  void publishJoint(const triangulation::RawScan& raw);
   void publish(const triangulation::RawScan& raw);
+  std::vector<bridge::HeadSample> headSamples(const triangulation::RawScan& raw);
 
   SyncScanDriverConfig config_;
   triangulation::Ranger ranger_;
-  double sample_rate_;            // [Hz]
-  std::int64_t joint_stamp_ = 0;  // of the last joint state [ns]
-  double head_angle_ = 0.0;       // in it [rad]
+  double sample_rate_;           // [Hz]
+  std::int64_t head_stamp_ = 0;  // of the last sample that was published [ns]
+  double head_angle_ = 0.0;      // in it [rad]
   diagnostic_updater::Updater updater_;
   driver::ScanQueue queue_{8};
   std::unique_ptr<driver::DeviceSession> session_;
   std::unique_ptr<bridge::DeviceDiagnostics> diagnostics_;
   std::unique_ptr<bridge::ActiveSensorTopics> topics_;
+  std::unique_ptr<tf2_ros::StaticTransformBroadcaster> static_broadcaster_;
   ros::WallTimer diagnostics_timer_;
   std::thread worker_;
 };
@@ -54,15 +56,14 @@ class SyncScanDriverNode {
 triangulation::Calibration calibrationOf(const SyncScanDriverConfig& config) {
   if (!config.calibration.empty()) return triangulation::Calibration::readFile(config.calibration);
   if (!config.profile.empty()) {
-    return simulation::ActiveSensorProfile::readFile(config.profile).calibrated();
+    return triangulation::SensorProfile::readFile(config.profile).calibrated();
   }
-  return simulation::ActiveSensorProfile{}.calibrated();
+  return triangulation::SensorProfile{}.calibrated();
 }
 
 driver::HeadJoint headJointOf(const SyncScanDriverConfig& config, const ros::NodeHandle& node,
                               const std::string& source) {
-  const bridge::ActiveSensorNames& names = config.names;
-  const driver::HeadFrames frames{names.joint, names.mount_frame, names.head_frame, names.frame};
+  const driver::HeadFrames& frames = config.names.frames;
   if (!config.urdf.empty()) return driver::HeadJoint::readFile(config.urdf, frames);
   std::string key;
   std::string xml;
@@ -91,6 +92,7 @@ SyncScanDriverNode::SyncScanDriverNode(ros::NodeHandle node, ros::NodeHandle pri
   topics_ = std::make_unique<bridge::ActiveSensorTopics>(
       node, config_.names, joint.limits, updater_,
       [this](const motion::HeadCommand& command) { session_->command(command); });
+  if (config_.publish_tf) broadcastHead(joint);
   diagnostics_ = std::make_unique<bridge::DeviceDiagnostics>(
       config_.session, *session_, queue_, 1.0 / sensor.scan.scanPeriod(), updater_);
   diagnostics_timer_ = node.createWallTimer(
@@ -104,32 +106,45 @@ SyncScanDriverNode::~SyncScanDriverNode() {
   worker_.join();
 }
 
-void SyncScanDriverNode::work() {
-  while (const auto raw = queue_.pop()) {
-    publishJoint(*raw);
-    publish(*raw);
-  }
+// The scan's origin as the robot description has it: where a robot_state_publisher broadcasts the
+// fixed joint as well, tf hears the same twice.
+void SyncScanDriverNode::broadcastHead(const driver::HeadJoint& joint) {
+  const driver::HeadFrames& frames = config_.names.frames;
+  topics_->broadcastHead();
+  static_broadcaster_ = std::make_unique<tf2_ros::StaticTransformBroadcaster>();
+  static_broadcaster_->sendTransform(bridge::toTransformMessage(
+      frames.head, frames.projection, bridge::nanoseconds(ros::Time::now()),
+      Eigen::Isometry3d(
+          Eigen::Translation3d(joint.scan_origin.x(), joint.scan_origin.y(), joint.scan_height))));
 }
 
-// Ahead of the scan, so that tf knows how the head turned when it is asked.
-void SyncScanDriverNode::publishJoint(const triangulation::RawScan& raw) {
-  for (const std::size_t i : driver::jointSamples(raw.head_angles, head_angle_, sample_rate_)) {
-    if (i > 0 && raw.head_angles[i] != head_angle_) std::this_thread::sleep_for(kJointInterval);
-    const std::int64_t stamp =
-        raw.stamp + std::llround(1e9 * static_cast<double>(i) / sample_rate_);
-    head_angle_ = raw.head_angles[i];
-    // What goes back a little is a correction of the clock, which tf would not take.
-    const bool goes_back = stamp <= joint_stamp_ && joint_stamp_ - stamp < kCorrection;
-    if (goes_back) continue;
-    topics_->publishJoint(stamp, head_angle_, driver::jointRate(raw.head_angles, i, sample_rate_));
-    joint_stamp_ = stamp;
+void SyncScanDriverNode::work() {
+  while (const auto raw = queue_.pop()) {
+    publish(*raw);
+    topics_->publishHead(headSamples(*raw));
+    diagnostics_->tick();
   }
 }
 
 void SyncScanDriverNode::publish(const triangulation::RawScan& raw) {
   motion::RangeScan range_scan = ranger_.range(raw);
   topics_->publish(range_scan);
-  diagnostics_->tick();
+}
+
+// Leaves out samples that go back a little, which is a correction of the clock: tf would not take
+// them.
+std::vector<bridge::HeadSample> SyncScanDriverNode::headSamples(const triangulation::RawScan& raw) {
+  std::vector<bridge::HeadSample> samples;
+  for (const std::size_t i : driver::jointSamples(raw.head_angles, head_angle_, sample_rate_)) {
+    const std::int64_t stamp =
+        raw.stamp + std::llround(1e9 * static_cast<double>(i) / sample_rate_);
+    head_angle_ = raw.head_angles[i];
+    const bool goes_back = stamp <= head_stamp_ && head_stamp_ - stamp < kCorrection;
+    if (goes_back) continue;
+    samples.push_back({stamp, head_angle_, driver::jointRate(raw.head_angles, i, sample_rate_)});
+    head_stamp_ = stamp;
+  }
+  return samples;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ struct SyncScanDriverConfig {
   std::string calibration;  ///< path
   std::string profile;      ///< path
   std::string urdf;         ///< path
+  bool publish_tf = true;
   bridge::ActiveSensorNames names;
 
   void visit(config::FieldVisitor& visitor) {
@@ -24,6 +25,9 @@ struct SyncScanDriverConfig {
                  "path of the sensor's profile; empty: as config/sensors/synchronised_scan.yaml");
     visitor.path("urdf", urdf,
                  "path of the robot description; empty: the parameter robot_description");
+    visitor.flag("publish_tf", publish_tf,
+                 "broadcast mount_frame to head_frame, at every sample that tells how the head "
+                 "turned, and that to frame; off where robot_state_publisher hears joint_states");
     names.visit(visitor);
   }
 };

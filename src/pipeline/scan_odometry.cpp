@@ -5,9 +5,9 @@
 
 namespace sightline::pipeline {
 
-using dead_reckoning::FloorConfig;
 using dead_reckoning::MotionPrior;
 using geometry::Pose2;
+using motion::FloorConfig;
 
 motion::OdometryNoise WheelsConfig::unmeasured() {
   motion::OdometryNoise noise;
@@ -32,10 +32,6 @@ void WheelsConfig::visit(config::FieldVisitor& visitor) {
 
 void ScanOdometryConfig::visit(config::FieldVisitor& visitor) {
   matching.visit(visitor);
-  visitor.flag("leans", leans,
-               "the scanner does not keep level, as on a person: beams that end on floor or "
-               "ceiling are found and left out");
-  visitor.group("floor", floor);
   visitor.group("wheels", wheels);
   visitor.number("turn_rate_sigma", turn_rate_sigma,
                  {"rad/s", {1e-6, 10.0}, "standard deviation of a gyroscope"});
@@ -80,19 +76,21 @@ void addUnknownTilt(const FloorConfig& config, const scan::Scan& scan, const Pos
   update.pose.covariance += along(update.pose.mean.theta() + heading_base);
   if (elapsed <= 0.0) return;
   update.step.covariance += 2.0 * along(heading_base);
-  update.twist_covariance += 2.0 / (elapsed * elapsed) * along(heading_base);
+  update.twist.covariance += 2.0 / (elapsed * elapsed) * along(heading_base);
 }
 
 }  // namespace
 
-ScanOdometry::ScanOdometry(const ScanOdometryConfig& config)
-    : config_(config), reckoner_(config.matching), finder_(config.floor) {
+ScanOdometry::ScanOdometry(const ScanOdometryConfig& config,
+                           const std::optional<motion::FloorConfig>& floor)
+    : config_(config), reckoner_(config.matching), floor_(floor) {
   config::validate(config);
+  if (floor_) finder_.emplace(*floor_);
 }
 
 void ScanOdometry::reset() {
   reckoner_.reset();
-  finder_.forget();
+  if (finder_) finder_->forget();
   before_.reset();
   on_floor_.clear();
   is_new_ = true;
@@ -105,25 +103,26 @@ void ScanOdometry::restartClock() {
 
 // The base goes on as before but for the turn.
 MotionPrior ScanOdometry::asBefore(double elapsed, double turn) const {
-  const Eigen::Vector3d& twist = before_->twist;
+  const Eigen::Vector3d& twist = before_->twist.mean;
   MotionPrior prior{Pose2::exp({elapsed * twist.x(), elapsed * twist.y(), turn}),
-                    elapsed * elapsed * before_->twist_covariance};
+                    elapsed * elapsed * before_->twist.covariance};
   const double position = config_.matching.carrier.acceleration * elapsed * elapsed;
   prior.covariance.diagonal().head<2>().array() += position * position;
   return prior;
 }
 
-ScanOdometry::Prior ScanOdometry::priorOf(const scan::Scan& scan, const OdometryAids& aids) const {
+ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
   if (!before_) return std::nullopt;
-  const double elapsed = 1e-9 * static_cast<double>(scan.stamp - before_->stamp);
+  const double elapsed = 1e-9 * static_cast<double>(located.scan.stamp - before_->stamp);
   Prior prior;
-  if (aids.T_odom_base && before_->T_odom_base) {
-    prior = wheelPrior(config_.wheels, geometry::between(*before_->T_odom_base, *aids.T_odom_base));
+  if (located.T_odom_base && before_->T_odom_base) {
+    prior =
+        wheelPrior(config_.wheels, geometry::between(*before_->T_odom_base, *located.T_odom_base));
   }
-  if (!aids.turn) return prior;
+  if (!located.turn) return prior;
   // Of the turn the gyroscope knows better.
-  if (!prior) prior = asBefore(elapsed, *aids.turn);
-  prior->T_before_now = {prior->T_before_now.translation(), *aids.turn};
+  if (!prior) prior = asBefore(elapsed, *located.turn);
+  prior->T_before_now = {prior->T_before_now.translation(), *located.turn};
   const double sigma = config_.turn_rate_sigma * elapsed;
   prior->covariance.row(2).setZero();
   prior->covariance.col(2).setZero();
@@ -131,44 +130,35 @@ ScanOdometry::Prior ScanOdometry::priorOf(const scan::Scan& scan, const Odometry
   return prior;
 }
 
-std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(const scan::Scan& scan,
-                                                                        const Pose2& T_base_sensor,
-                                                                        const OdometryAids& aids) {
-  if (is_new_) reckoner_.reset(aids.T_odom_base.value_or(Pose2()));
-  const auto update = match(scan, T_base_sensor, aids, priorOf(scan, aids));
+std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
+    const LocatedScan& located) {
+  if (is_new_) reckoner_.reset(located.T_odom_base.value_or(Pose2()));
+  const Pose2 T_base_sensor = located.T_base_sensor.value_or(Pose2());
+  const Prior prior = priorOf(located);
+  on_floor_.clear();
+  const bool looks_for_floor = finder_ && !located.attitude;
+  const auto update = looks_for_floor ? matchLeaning(located.scan, T_base_sensor, prior)
+                                      : reckoner_.update(located.scan, T_base_sensor, prior);
   if (!update) return update;
   is_new_ = false;
-  before_ = Before{scan.stamp, aids.T_odom_base, update->twist, update->twist_covariance};
+  before_ = Before{located.scan.stamp, located.T_odom_base, update->twist};
   return update;
-}
-
-std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::match(const scan::Scan& scan,
-                                                                       const Pose2& T_base_sensor,
-                                                                       const OdometryAids& aids,
-                                                                       const Prior& prior) {
-  if (!config_.leans) return reckoner_.update(scan, T_base_sensor, prior);
-  if (!aids.attitude) return matchLeaning(scan, T_base_sensor, prior);
-  on_floor_ = dead_reckoning::beamsOnFloor(config_.floor, scan, *aids.attitude);
-  const auto level = dead_reckoning::levelled(scan, *aids.attitude);
-  return reckoner_.update(dead_reckoning::without(level, on_floor_), T_base_sensor, prior);
 }
 
 // Floor is told from walls by looking back, for which the pose has to be known: the scan is matched
 // as it is first, and once more where it turns out to hold floor.
 std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
     const scan::Scan& scan, const Pose2& T_base_sensor, const Prior& prior) {
-  dead_reckoning::DeadReckoner attempt = reckoner_;
-  auto update = attempt.update(scan, T_base_sensor, prior);
-  if (!update) return update;
-  on_floor_ = finder_.find(scan, update->pose.mean * T_base_sensor);
-  if (std::count(on_floor_.begin(), on_floor_.end(), true) == 0) {
-    reckoner_ = std::move(attempt);
-  } else {
-    update = reckoner_.update(dead_reckoning::without(scan, on_floor_), T_base_sensor, prior);
+  auto match = reckoner_.match(scan, T_base_sensor, prior);
+  if (!match) return std::nullopt;
+  on_floor_ = finder_->find(scan, match->T_odom_base * T_base_sensor);
+  if (std::count(on_floor_.begin(), on_floor_.end(), true) > 0) {
+    match = reckoner_.match(motion::without(scan, on_floor_), T_base_sensor, prior);
   }
-  finder_.remember(scan, update->pose.mean * T_base_sensor);
+  Update update = reckoner_.commit(*match);
+  finder_->remember(scan, update.pose.mean * T_base_sensor);
   const double elapsed = before_ ? 1e-9 * static_cast<double>(scan.stamp - before_->stamp) : 0.0;
-  addUnknownTilt(config_.floor, scan, T_base_sensor, elapsed, *update);
+  addUnknownTilt(*floor_, scan, T_base_sensor, elapsed, update);
   return update;
 }
 

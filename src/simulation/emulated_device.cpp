@@ -33,7 +33,7 @@ std::int64_t nanoseconds(double seconds) {
 }  // namespace
 
 EmulatedDevice::EmulatedDevice(const std::string& path, const FirmwareConfig& config,
-                               std::unique_ptr<driver::DeviceModel> model, std::uint64_t seed,
+                               std::unique_ptr<DeviceModel> model, std::uint64_t seed,
                                OnScan on_scan)
     : path_(path),
       baud_rate_(config.baud_rate),

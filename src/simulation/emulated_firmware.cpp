@@ -8,7 +8,7 @@
 
 namespace sightline::simulation {
 
-EmulatedFirmware::EmulatedFirmware(const FirmwareConfig& config, driver::DeviceModel& model,
+EmulatedFirmware::EmulatedFirmware(const FirmwareConfig& config, DeviceModel& model,
                                    std::uint64_t seed)
     : config_(config), model_(model), random_(randomStream(seed, 2)) {}
 

@@ -20,35 +20,20 @@ double rounded(double value, double step) {
 
 }  // namespace
 
-void Mounting::visit(config::FieldVisitor& visitor) {
-  visitor.number("x", x, {"m", {-100.0, 100.0}, "of the sensor on the robot, forward"});
-  visitor.number("y", y, {"m", {-100.0, 100.0}, "left"});
-  visitor.number("z", z, {"m", {0.0, 100.0}, "above the floor"});
-  const config::Range turn{-2.0 * geometry::kPi, 2.0 * geometry::kPi};
-  visitor.number("roll", roll, {"rad", turn, "about the robot's x axis; pi: upside down"});
-  visitor.number("pitch", pitch, {"rad", turn, "about the robot's y axis; positive looks down"});
-  visitor.number("yaw", yaw, {"rad", turn, "about the robot's z axis"});
-}
-
-Eigen::Isometry3d Mounting::T_base_sensor() const {
-  return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
-}
-
-Eigen::Isometry3d inSpace(const geometry::Pose2& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.linear().topLeftCorner<2, 2>() = pose.rotation();
-  result.translation().head<2>() = pose.translation();
-  return result;
-}
-
-Scanner::Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed)
+Scanner::Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed,
+                 double turret_rate)
     : profile_(checked(profile)),
-      T_base_sensor_(mounting.T_base_sensor()),
+      T_base_turret_(mounting.T_base_sensor()),
+      turret_rate_(turret_rate),
       geometry_(profile.geometry()),
       sweep_duration_(std::llround(profile.sweepDuration() * 1e9)),
       random_(randomStream(seed, 1)) {}
+
+Eigen::Isometry3d Scanner::T_base_sensor(std::int64_t time) const {
+  if (turret_rate_ == 0.0) return T_base_turret_;
+  const double angle = turret_rate_ * 1e-9 * static_cast<double>(time);
+  return T_base_turret_ * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ());
+}
 
 scan::Scan Scanner::sweep(const world::World& world, std::int64_t stamp, const PoseAt& T_map_base) {
   return sweepInSpace(world, stamp, [&](std::int64_t time) { return inSpace(T_map_base(time)); });
@@ -56,12 +41,17 @@ scan::Scan Scanner::sweep(const world::World& world, std::int64_t stamp, const P
 
 scan::Scan Scanner::sweepInSpace(const world::World& world, std::int64_t stamp,
                                  const PoseInSpaceAt& T_map_base) {
+  return sweepInSpace(still(world), stamp, T_map_base);
+}
+
+scan::Scan Scanner::sweepInSpace(const WorldAt& world_at, std::int64_t stamp,
+                                 const PoseInSpaceAt& T_map_base) {
   std::vector<double> ranges;
   std::vector<double> intensities;
   ranges.reserve(geometry_->beams());
   for (std::size_t beam = 0; beam < geometry_->beams(); ++beam) {
     const std::int64_t time = stamp + std::llround(geometry_->timeOffsets()[beam] * 1e9);
-    const Echo echo = measureBeam(world, T_map_base(time), beam);
+    const Echo echo = measureBeam(world_at(time), T_map_base(time) * T_base_sensor(time), beam);
     ranges.push_back(echo.range);
     if (profile_.intensity > 0.0) intensities.push_back(echo.intensity);
   }
@@ -70,9 +60,8 @@ scan::Scan Scanner::sweepInSpace(const world::World& world, std::int64_t stamp,
   return scan;
 }
 
-Scanner::Echo Scanner::measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_base,
+Scanner::Echo Scanner::measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_sensor,
                                    std::size_t beam) {
-  const Eigen::Isometry3d T_map_sensor = T_map_base * T_base_sensor_;
   const auto hit = lookNoisily(world, T_map_sensor, geometry_->angles()[beam]);
   const double intensity = hit ? intensityOf(*hit, world.materials()[hit->material]) : 0.0;
   double range = hit ? noisyRange(hit->range, intensity) : kInfinity;

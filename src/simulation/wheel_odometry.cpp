@@ -33,6 +33,11 @@ void WheelOdometry::advance(const geometry::Pose2& true_step) {
   T_odom_base_ = T_odom_base_ * measured;
 }
 
+geometry::UncertainTwist2 WheelOdometry::twist(double duration) const {
+  const geometry::Pose2 step = geometry::between(T_odom_begin_, T_odom_base_);
+  return {step.log() / duration, motion::stepCovariance(noise_, step) / (duration * duration)};
+}
+
 geometry::UncertainPose2 WheelOdometry::pose() const {
   const double variance = noise_.scale_sigma * noise_.scale_sigma;
   return {T_odom_base_, covariance_ + variance * scale_jacobian_ * scale_jacobian_.transpose()};

@@ -1,5 +1,6 @@
 // Calibrates a triangulation sensor from a recording, or from one that a simulated rig makes.
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>

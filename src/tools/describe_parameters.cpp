@@ -9,6 +9,7 @@
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
 #include "nodes/sync_scan_driver_config.h"
+#include "sightline/pipeline/estimators_config.h"
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/path.h"
 #include "sightline/simulation/scanner_profile.h"
@@ -58,15 +59,27 @@ void printNodes() {
                "the file of estimators that `offline` takes, too; must be set"}});
   print<nodes::SyncScanDriverConfig>("sync_scan_driver", "Parameters of the node.");
   print<nodes::SimSensorConfig>("sim_sensor", "Parameters of the node.");
-  print<nodes::SimScannerConfig>(
-      "sim_sensor: scanners", "Parameters of one scanner, below `~scanners/NAME` of sim_sensor.");
+  print<nodes::SimRobotConfig>(
+      "sim_sensor: robots",
+      "Parameters of one robot, below `~robots/NAME` of sim_sensor: NAME is the namespace of its "
+      "topics and the prefix of its frames. Without `~robots` there is one robot, and these are "
+      "the node's own.");
+  print<nodes::SimScannerConfig>("sim_sensor: scanners",
+                                 "Parameters of one scanner, below `scanners/NAME` of its robot.");
   print<nodes::SimActiveSensorConfig>(
       "sim_sensor: active sensors",
-      "Parameters of one sensor on a head, below `~active_sensors/NAME` of sim_sensor.");
+      "Parameters of one sensor on a head, below `active_sensors/NAME` of its robot.");
+  print<nodes::SimMoverConfig>(
+      "sim_sensor: movers",
+      "Parameters of one thing that moves through the world, below `~movers/NAME` of sim_sensor.");
 }
 
 void printFiles() {
   namespace simulation = sightline::simulation;
+  print<sightline::pipeline::EstimatorsConfig>("Files of estimators",
+                                               "What `offline`, `replay.launch` and the node "
+                                               "estimators are given. `rooms` and `odometry` are "
+                                               "there where these estimators are wanted.");
   print<simulation::ActiveSensorProfile>(
       "Active sensor profiles",
       "The files of `config/sensors` for synchronised-scan sensors, real or simulated.");

@@ -1,18 +1,18 @@
-// Runs the estimators over a bag, as fast as they go.
+// Runs the estimators over recordings, as fast as they go.
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "program/program.h"
-#include "sightline/bridge/bag_estimators.h"
+#include "sightline/bridge/bag_feed.h"
+#include "sightline/bridge/recorded_estimates.h"
 
 namespace {
 
@@ -21,78 +21,63 @@ using Clock = std::chrono::steady_clock;
 
 struct Job {
   std::string config;
-  std::string in;
+  std::vector<std::string> in;
   std::string out;
-  std::vector<std::string> nodes;  // empty: by the settings
+  std::optional<std::string> nodes;  // by default by the settings
   bool no_wheels = false;
 };
 
-std::vector<std::string> splitNodes(const std::string& list) {
-  std::vector<std::string> nodes;
+pipeline::EstimatorSet nodesOf(const std::string& list) {
+  pipeline::EstimatorSet set;
   std::istringstream stream(list);
   for (std::string node; std::getline(stream, node, ',');) {
-    if (node == "targets") {
+    if (node == "targets" || node == "map") {
       throw tools::UsageError("--nodes: " + node + " is not part of this version");
     }
-    if (node != "lines" && node != "rooms" && node != "odometry") {
+    if (node == "lines") {
+      set.lines = true;
+    } else if (node == "rooms") {
+      set.rooms = true;
+    } else if (node == "odometry") {
+      set.odometry = true;
+    } else {
       throw tools::UsageError("--nodes: no node " + node);
     }
-    if (std::count(nodes.begin(), nodes.end(), node) == 0) nodes.push_back(node);
   }
-  if (nodes.empty()) throw tools::UsageError("--nodes: none given");
-  return nodes;
+  if (!set.lines && !set.rooms && !set.odometry) throw tools::UsageError("--nodes: none given");
+  return set;
 }
 
-// Opens the bag to write, unless it is the one to read.
-void openOut(rosbag::Bag& out, const Job& job) {
-  std::filesystem::create_directories(job.out);
-  const auto path = std::filesystem::path(job.out) / "out.bag";
-  if (std::filesystem::exists(path) && std::filesystem::equivalent(path, job.in)) {
-    throw config::Error(job.in, 0, "", "is where the result would go");
+pipeline::EstimatorSet nodesOf(const Job& job, const pipeline::EstimatorsConfig& config) {
+  const pipeline::EstimatorSet by_settings{true, config.rooms.has_value(),
+                                           config.odometry.has_value()};
+  const pipeline::EstimatorSet set = job.nodes ? nodesOf(*job.nodes) : by_settings;
+  if (set.rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
+  if (set.rooms && !config.rooms->initial_pose) {
+    throw config::Error(job.config, 0, "rooms.initial_pose", "missing");
   }
-  out.open(path.string(), rosbag::bagmode::Write);
-}
-
-std::vector<std::string> nodesOf(const pipeline::OfflineConfig& config) {
-  std::vector<std::string> nodes{"lines"};
-  if (config.rooms) nodes.emplace_back("rooms");
-  if (config.odometry) nodes.emplace_back("odometry");
-  return nodes;
-}
-
-std::vector<std::string> nodesOf(const Job& job, const pipeline::OfflineConfig& config) {
-  const std::vector<std::string> nodes = job.nodes.empty() ? nodesOf(config) : job.nodes;
-  const bool rooms = std::count(nodes.begin(), nodes.end(), "rooms") > 0;
-  if (rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
-  if (rooms && job.no_wheels) {
+  if (set.rooms && job.no_wheels) {
     throw tools::UsageError("--no-wheels leaves rooms without odometry");
   }
-  return nodes;
+  return set;
 }
 
-using Estimators = std::vector<std::unique_ptr<bridge::BagEstimator>>;
-
-Estimators makeEstimators(const std::vector<std::string>& nodes,
-                          const pipeline::OfflineConfig& config, const Job& job, rosbag::Bag& out) {
-  Estimators estimators;
-  for (const std::string& node : nodes) {
-    const std::string trajectory = (std::filesystem::path(job.out) / (node + ".tum")).string();
-    if (node == "lines") {
-      estimators.push_back(std::make_unique<bridge::BagLines>(config, out));
-    } else if (node == "rooms") {
-      estimators.push_back(std::make_unique<bridge::BagRooms>(config, out, trajectory));
-    } else {
-      estimators.push_back(std::make_unique<bridge::BagOdometry>(config, out, trajectory));
+// Makes the folder, unless a bag to read is where the bag to write would go.
+void prepareOut(const Job& job) {
+  std::filesystem::create_directories(job.out);
+  const auto path = std::filesystem::path(job.out) / "out.bag";
+  for (const std::string& in : job.in) {
+    if (std::filesystem::exists(path) && std::filesystem::equivalent(path, in)) {
+      throw config::Error(in, 0, "", "is where the result would go");
     }
   }
-  return estimators;
 }
 
 // A bar on a terminal, nothing elsewhere.
 class ProgressBar {
  public:
-  void show(double share) {
-    const int percent = static_cast<int>(100.0 * share);
+  void show(double ratio) {
+    const int percent = static_cast<int>(100.0 * ratio);
     if (!on_terminal_ || percent == shown_) return;
     shown_ = percent;
     const std::string done(static_cast<std::size_t>(percent / 2), '=');
@@ -104,42 +89,45 @@ class ProgressBar {
   int shown_ = -1;
 };
 
-void readInto(Estimators& estimators, bridge::BagScans& scans, rosbag::Bag& out) {
+void run(bridge::BagFeed& feed, bridge::RecordedEstimates& estimates) {
   ProgressBar bar;
-  bridge::BagScans::Visitor visitor;
-  visitor.scan = [&](const bridge::LocatedScan& located, const ros::Time& now) {
-    for (auto& estimator : estimators) estimator->process(located, now);
+  bridge::BagFeed::Visitor visitor;
+  visitor.scan = [&](pipeline::LocatedScan located, const ros::Time& now) {
+    estimates.take(std::move(located), now);
   };
-  visitor.message = [&](const rosbag::MessageInstance& message) {
-    out.write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
-  };
-  visitor.progress = [&](double share) { bar.show(share); };
-  scans.read(visitor);
-  for (auto& estimator : estimators) estimator->finish();
-  out.close();
+  visitor.message = [&](const rosbag::MessageInstance& message) { estimates.copy(message); };
+  visitor.progress = [&](double ratio) { bar.show(ratio); };
+  feed.read(visitor);
+  estimates.close();
 }
 
-void printSummary(const Estimators& estimators, const bridge::BagScans& scans, double seconds) {
-  for (const auto& [reason, count] : scans.dropped()) {
-    std::printf("%zu of %zu scans dropped: %s\n", count, scans.scans(), reason.c_str());
+void printSummary(const bridge::RecordedEstimates& estimates, const bridge::BagFeed& feed,
+                  double seconds) {
+  for (const auto& [reason, count] : feed.dropped()) {
+    std::printf("%zu of %zu scans dropped: %s\n", count, feed.scans(), reason.c_str());
   }
-  for (const auto& estimator : estimators) {
-    for (const std::string& line : estimator->summary()) std::printf("%s\n", line.c_str());
+  for (const auto& [reason, count] : feed.refused()) {
+    std::printf("%zu messages dropped: %s\n", count, reason.c_str());
   }
-  std::printf("%.1f s of scans in %.2f s: %.0f times real time\n", scans.duration(), seconds,
-              scans.duration() / seconds);
+  if (feed.withoutMotion() > 0) {
+    std::printf("%zu of %zu scans without known motion within the sweep\n", feed.withoutMotion(),
+                feed.scans());
+  }
+  for (const std::string& line : estimates.summary()) std::printf("%s\n", line.c_str());
+  std::printf("%.1f s of scans in %.2f s: %.0f times real time\n", feed.duration(), seconds,
+              feed.duration() / seconds);
 }
 
 int runOffline(const Job& job) {
   const auto start = Clock::now();
-  const auto config = pipeline::OfflineConfig::readFile(job.config);
-  const auto nodes = nodesOf(job, config);
-  bridge::BagScans scans(job.in, config, !job.no_wheels);
-  rosbag::Bag out;
-  openOut(out, job);
-  Estimators estimators = makeEstimators(nodes, config, job, out);
-  readInto(estimators, scans, out);
-  printSummary(estimators, scans, std::chrono::duration<double>(Clock::now() - start).count());
+  auto config = pipeline::EstimatorsConfig::readFile(job.config);
+  if (job.no_wheels) config.input.feed.odometry_source = pipeline::OdometrySource::kNone;
+  const auto set = nodesOf(job, config);
+  bridge::BagFeed feed(job.in, config, {});
+  prepareOut(job);
+  bridge::RecordedEstimates estimates(config, set, job.out);
+  run(feed, estimates);
+  printSummary(estimates, feed, std::chrono::duration<double>(Clock::now() - start).count());
   return 0;
 }
 
@@ -147,20 +135,16 @@ int runOffline(const Job& job) {
 
 int main(int argc, char** argv) {
   Job job;
-  std::optional<std::string> nodes;
-  tools::Program program("offline", "Runs the estimators over a bag, as fast as they go.");
-  program.positional("IN.bag", job.in, "the bag to read");
+  tools::Program program("offline", "Runs the estimators over recordings, as fast as they go.");
+  program.positionals("IN.bag", job.in, "the bags to read, as one");
   program.requiredOption("--config", job.config, "FILE.yaml",
                          "settings: scans, frames, noise, lines, rooms, carrier, odometry");
   program.requiredOption("--out", job.out, "DIR",
                          "folder for out.bag and one trajectory, NODE.tum, for each node with a "
                          "pose");
-  program.option("--nodes", nodes, "lines,rooms,odometry",
+  program.option("--nodes", job.nodes, "lines,rooms,odometry",
                  "what to run; by default lines, and rooms and odometry where the settings ask for "
                  "them");
   program.flag("--no-wheels", job.no_wheels, "leave the odometry of the bag unused");
-  return program.run(argc, argv, [&] {
-    if (nodes) job.nodes = splitNodes(*nodes);
-    return runOffline(job);
-  });
+  return program.run(argc, argv, [&] { return runOffline(job); });
 }

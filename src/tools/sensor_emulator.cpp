@@ -1,6 +1,5 @@
 // A synchronised-scan sensor that is not there, at a serial port that is none.
 #include <array>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>

@@ -1,36 +1,61 @@
 #include "sightline/tracking/beam_points.h"
 
+#include <Eigen/LU>
+
+#include "sightline/motion/sweep_noise.h"
+
 namespace sightline::tracking {
 
-Sweep readSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                const motion::OdometryNoise& odometry, double point_sigma) {
+namespace {
+
+using geometry::Pose2;
+
+// How far the jitter about an axis may move a point, as a covariance.
+Eigen::Matrix2d jitterAt(const Eigen::Vector2d& point, const scan::MotionNoise& noise) {
+  const Eigen::Vector2d arm = point - noise.jitter_axis;
+  const Eigen::Vector2d across(-arm.y(), arm.x());
+  return noise.jitter * across * across.transpose();
+}
+
+Eigen::Matrix3d baseTwistCovariance(const scan::Scan& scan, const Pose2& T_base_sensor) {
+  const Pose2 motion = scan.sensorMotion().empty() ? Pose2() : scan.sensorMotion().back();
+  const Eigen::Matrix3d to_base =
+      T_base_sensor.adjoint() * motion::coordinatesByStartTwist(motion).inverse();
+  return to_base * (scan.motion_noise.drift + scan.motion_noise.walk) * to_base.transpose();
+}
+
+}  // namespace
+
+Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor) {
   const Eigen::Matrix2d rotation = T_base_sensor.rotation();
-  const Eigen::Matrix2d isotropic = point_sigma * point_sigma * Eigen::Matrix2d::Identity();
-  const bool moved = !scan.sensorMotion().empty();
-  const std::vector<double>& offsets = scan.geometry()->timeOffsets();
+  const auto& motion = scan.sensorMotion();
+  const double duration = scan.duration();
   Sweep sweep;
-  if (moved) {
-    const geometry::Pose2 motion =
-        T_base_sensor * scan.sensorMotion().back() * T_base_sensor.inverse();
-    sweep.motion_covariance = motion::stepCovariance(odometry, motion);
+  if (!scan.motion_noise.isZero()) {
+    sweep.motion_covariance = baseTwistCovariance(scan, T_base_sensor);
   }
   sweep.points.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i)) continue;
     BeamPoint point;
     point.beam = i;
-    point.position = rotation * scan.point(i) + T_base_sensor.translation();
-    point.origin =
-        moved ? T_base_sensor * scan.sensorMotion()[i].translation() : T_base_sensor.translation();
+    const Eigen::Vector2d position = scan.point(i);
+    const Eigen::Matrix2d covariance = scan.covariance(i) + jitterAt(position, scan.motion_noise);
+    point.position = T_base_sensor * position;
+    point.origin = T_base_sensor * (motion.empty() ? Pose2() : motion[i]).translation();
     point.range = scan.ranges()[i];
-    point.covariance = isotropic;
-    if (point_sigma <= 0.0) {
-      point.covariance = rotation * scan.covariance(i) * rotation.transpose();
-    }
-    point.sweep_share = moved ? offsets[i] / offsets.back() : 0.0;
+    point.covariance = rotation * covariance * rotation.transpose();
+    point.sweep_ratio = duration > 0.0 ? scan.geometry()->timeOffsets()[i] / duration : 0.0;
     sweep.points.push_back(point);
   }
   return sweep;
+}
+
+void makeIsotropic(Sweep& sweep, double sigma) {
+  sweep.motion_covariance.setZero();
+  for (BeamPoint& point : sweep.points) {
+    point.covariance = sigma * sigma * Eigen::Matrix2d::Identity();
+  }
 }
 
 }  // namespace sightline::tracking

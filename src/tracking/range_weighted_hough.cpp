@@ -7,76 +7,119 @@ namespace sightline::tracking {
 
 namespace {
 
+constexpr struct {
+  // Most bins on either side of the prediction. The defaults need 26 and 41.
+  int most_bins = 100;
+  // Chosen, not measured: share of its weight that a peak loses at the edge of a gate, by distance
+  // and by turn.
+  double distance_penalty = 0.5;
+  double turn_penalty = 0.2;
+} kHough;
+
 double squared(double value) {
   return value * value;
 }
 
-// Half the accumulator, in bins; the outermost points of a wide gate may lie beyond its opening.
-int halfWidth(const ValidationGate& gate, double bin) {
-  return static_cast<int>(std::ceil(gate.size().opening / bin)) + 1;
+// One dimension of the accumulator: bins on both sides of the prediction.
+struct Axis {
+  double bin;  // width
+  int half;    // bins on either side
+
+  Axis(double reach, double wanted_bin)
+      : bin(std::max(wanted_bin, reach / kHough.most_bins)),
+        half(static_cast<int>(std::ceil(reach / bin))) {}
+  double at(int i) const { return i * bin; }
+};
+
+// The outermost points of a wide gate may lie beyond its opening: one more bin.
+Axis distancesOf(const GatedWall& wall, const HoughConfig& config) {
+  Axis axis(wall.gate.size().opening, config.distance_bin);
+  ++axis.half;
+  return axis;
 }
 
-}  // namespace
-
-std::vector<double> RangeWeightedHough::vote(const GatedWall& wall, double turn) const {
+std::vector<double> vote(const GatedWall& wall, double turn, const Axis& axis) {
   const geometry::PolarLine& predicted = wall.gate.predicted();
   const Eigen::Vector2d normal(std::cos(predicted.phi + turn), std::sin(predicted.phi + turn));
-  const int half = halfWidth(wall.gate, config_.distance_bin);
-  std::vector<double> accumulator(static_cast<std::size_t>(2 * half + 1), 0.0);
+  std::vector<double> accumulator(static_cast<std::size_t>(2 * axis.half + 1), 0.0);
   for (const BeamPoint* point : wall.points) {
-    const double bin = (normal.dot(point->position) - predicted.rho) / config_.distance_bin + half;
-    const auto lower = static_cast<int>(std::floor(bin));
-    if (lower < 0 || lower + 1 > 2 * half) continue;
+    const double bin = (normal.dot(point->position) - predicted.rho) / axis.bin + axis.half;
+    const double floor = std::floor(bin);
+    if (!(floor >= 0.0 && floor + 1.0 <= 2.0 * axis.half)) continue;
+    const auto lower = static_cast<std::size_t>(floor);
     // Shared between the two nearest bins, so that a peak on the edge of a bin is not halved.
-    const double upper_share = bin - lower;
-    accumulator[static_cast<std::size_t>(lower)] += point->range * (1.0 - upper_share);
-    accumulator[static_cast<std::size_t>(lower) + 1] += point->range * upper_share;
+    const double upper_share = bin - floor;
+    accumulator[lower] += point->range * (1.0 - upper_share);
+    accumulator[lower + 1] += point->range * upper_share;
   }
   return accumulator;
 }
 
-std::optional<WallPeak> RangeWeightedHough::bestPeak(const GatedWall& wall, double turn) const {
+// The heaviest bin at a turn, where weights fall by `penalty` towards the edge of the gate.
+std::optional<WallPeak> bestPeak(const GatedWall& wall, double turn, const HoughConfig& config,
+                                 double penalty) {
   if (wall.points.empty()) return std::nullopt;
-  const std::vector<double> votes = vote(wall, turn);
-  const int half = halfWidth(wall.gate, config_.distance_bin);
-  WallPeak best;
+  const Axis axis = distancesOf(wall, config);
+  const std::vector<double> votes = vote(wall, turn, axis);
+  std::optional<WallPeak> best;
   double best_score = 0.0;
-  for (std::size_t i = 0; i < votes.size(); ++i) {
-    const double distance = (static_cast<int>(i) - half) * config_.distance_bin;
-    // Between peaks that weigh alike, the prediction decides: half the weight at the edge of the
-    // gate.
-    const double score = votes[i] * (1.0 - 0.5 * squared(distance / (half * config_.distance_bin)));
-    if (score > best_score) {
-      best_score = score;
-      best = {distance, votes[i]};
-    }
+  for (int i = -axis.half; i <= axis.half; ++i) {
+    const double weight = votes[static_cast<std::size_t>(i + axis.half)];
+    const double score = weight * (1.0 - penalty * squared(static_cast<double>(i) / axis.half));
+    if (score <= best_score) continue;
+    best_score = score;
+    best = WallPeak{turn, axis.at(i), weight, config.angle_bin, axis.bin};
   }
-  if (best_score <= 0.0) return std::nullopt;
   return best;
 }
 
+}  // namespace
+
 HoughPeaks RangeWeightedHough::transform(const std::vector<GatedWall>& walls) const {
-  double range = 0.0;
-  for (const GatedWall& wall : walls) range = std::max(range, wall.gate.size().angle);
-  const int half = static_cast<int>(std::ceil(range / config_.angle_bin));
+  double reach = 0.0;
+  for (const GatedWall& wall : walls) reach = std::max(reach, wall.gate.size().angle);
+  const Axis turns(reach, config_.angle_bin);
   HoughPeaks best;
   best.walls.resize(walls.size());
   double best_score = 0.0;
-  for (int i = -half; i <= half; ++i) {
+  for (int i = -turns.half; i <= turns.half; ++i) {
     HoughPeaks candidate;
-    candidate.turn = i * config_.angle_bin;
+    candidate.turn = turns.at(i);
     double weight = 0.0;
     for (const GatedWall& wall : walls) {
-      candidate.walls.push_back(bestPeak(wall, candidate.turn));
-      if (candidate.walls.back()) weight += candidate.walls.back()->weight;
+      candidate.walls.push_back(bestPeak(wall, candidate.turn, config_, kHough.distance_penalty));
+      if (!candidate.walls.back()) continue;
+      candidate.walls.back()->turn_bin = turns.bin;
+      weight += candidate.walls.back()->weight;
     }
-    const double score = weight * (1.0 - 0.2 * squared(static_cast<double>(i) / (half + 1)));
-    if (score > best_score) {
-      best_score = score;
-      best = std::move(candidate);
-    }
+    const double off = static_cast<double>(i) / (turns.half + 1);
+    const double score = weight * (1.0 - kHough.turn_penalty * squared(off));
+    if (score <= best_score) continue;
+    best_score = score;
+    best = std::move(candidate);
   }
   return best;
+}
+
+std::optional<WallPeak> RangeWeightedHough::heaviest(const GatedWall& wall) const {
+  const Axis turns(wall.gate.size().angle, config_.angle_bin);
+  std::optional<WallPeak> best;
+  for (int i = -turns.half; i <= turns.half; ++i) {
+    const auto peak = bestPeak(wall, turns.at(i), config_, 0.0);
+    if (!peak || (best && peak->weight <= best->weight)) continue;
+    best = peak;
+    best->turn_bin = turns.bin;
+  }
+  return best;
+}
+
+geometry::PolarLine lineAt(const WallPeak& peak, const geometry::PolarLine& predicted) {
+  geometry::PolarLine line = predicted;
+  line.rho += peak.distance;
+  line.phi += peak.turn;
+  line.covariance =
+      Eigen::Vector2d(squared(peak.distance_bin), squared(peak.turn_bin)).asDiagonal();
+  return geometry::canonical(line);
 }
 
 }  // namespace sightline::tracking

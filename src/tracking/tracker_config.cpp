@@ -25,11 +25,14 @@ void HoughConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("distance_bin", distance_bin,
                  {"m",
                   {1e-3, 1.0},
-                  "bin of the range-weighted Hough transform in distance (jensfelt section 4.2)"});
-  visitor.number("angle_bin", angle_bin,
-                 {"rad",
-                  {1e-4, 0.2},
-                  "bin of the range-weighted Hough transform in angle (jensfelt section 4.2)"});
+                  "bin of the range-weighted Hough transform in distance (jensfelt section 4.2); "
+                  "wider where a gate would hold more than 200"});
+  visitor.number(
+      "angle_bin", angle_bin,
+      {"rad",
+       {1e-4, 0.2},
+       "bin of the range-weighted Hough transform in angle (jensfelt section 4.2); wider "
+       "where a gate would hold more than 200"});
 }
 
 void WallConfig::visit(config::FieldVisitor& visitor) {
@@ -57,24 +60,28 @@ void SlipConfig::visit(config::FieldVisitor& visitor) {
                  {"rad", {0.0, 3.2}, "heading uncertainty of a slip"});
 }
 
-motion::OdometryNoise TrackerConfig::defaultOdometry() {
-  motion::OdometryNoise noise;
-  noise.scale_mean = 1.0;
-  noise.scale_sigma = 0.02;
-  noise.heading_bias_per_metre = 0.0;
-  noise.steering_bias = 0.0;
-  noise.distance_sigma = 0.02;
-  noise.lateral_sigma = 0.01;
-  noise.heading_sigma_per_metre = 0.02;
-  noise.steering_sigma = 0.05;
-  return noise;
+void PlainConfig::visit(config::FieldVisitor& visitor) {
+  visitor.number("point_sigma", point_sigma,
+                 {"m", {1e-4, 1.0}, "noise of a point in x and in y (jensfelt section 2)"});
+  visitor.number("floor_position_sigma", floor_position_sigma,
+                 {"m", kShare, "least position uncertainty (jensfelt section 4.3)"});
+  visitor.number("floor_heading_sigma", floor_heading_sigma,
+                 {"rad", kShare, "least heading uncertainty (jensfelt section 4.3)"});
+  visitor.number(
+      "distance_sigma", distance_sigma,
+      {"1", kShare, "error of a step's length, share of the length (jensfelt section 4.1)"});
+  visitor.number(
+      "heading_sigma_per_metre", heading_sigma_per_metre,
+      {"rad/sqrt(m)", kShare, "spread of the heading after one metre (jensfelt section 4.1)"});
+  visitor.number("steering_sigma", steering_sigma,
+                 {"1", kShare, "error of a step's turn, share of the turn (jensfelt section 4.1)"});
 }
 
 void TrackerConfig::visit(config::FieldVisitor& visitor) {
-  visitor.choice("method", method, {"full", "plain"}, "full, or jensfelt's own simpler choices");
-  visitor.flag(
-      "neighbours", neighbours,
-      "look for the walls of rooms behind a door too, not only for those of the current room");
+  visitor.choice("method", method, {"full", "plain"},
+                 "full, or what jensfelt section 4 describes and nothing else");
+  visitor.flag("neighbours", neighbours,
+               "method full: look for the walls of rooms behind a door too, and through it");
   visitor.group("gate", gate);
   visitor.group("hough", hough);
   visitor.group("wall", wall);
@@ -82,17 +89,16 @@ void TrackerConfig::visit(config::FieldVisitor& visitor) {
   visitor.group("odometry", odometry);
   visitor.number(
       "threshold_position_sigma", threshold_position_sigma,
-      {"m", {0.0, 10.0}, "added to the position uncertainty at a door (jensfelt section 4.3)"});
+      {"m",
+       {0.0, 10.0},
+       "position uncertainty added at a door (jensfelt section 4.3): method plain adds it to the "
+       "standard deviation, method full as an independent error"});
   visitor.number(
       "threshold_heading_sigma", threshold_heading_sigma,
-      {"rad", {0.0, 3.2}, "added to the heading uncertainty at a door (jensfelt section 4.3)"});
-  visitor.number("floor_position_sigma", floor_position_sigma,
-                 {"m", kShare, "method plain: least position uncertainty (jensfelt section 4.3)"});
-  visitor.number("floor_heading_sigma", floor_heading_sigma,
-                 {"rad", kShare, "method plain: least heading uncertainty (jensfelt section 4.3)"});
-  visitor.number(
-      "plain_point_sigma", plain_point_sigma,
-      {"m", {1e-4, 1.0}, "method plain: noise of a point in x and in y (jensfelt section 2)"});
+      {"rad",
+       {0.0, 3.2},
+       "heading uncertainty added at a door (jensfelt section 4.3), as that of the position"});
+  visitor.group("plain", plain);
   visitor.number(
       "degraded_position_sigma", degraded_position_sigma,
       {"m", {0.0, 100.0}, "position uncertainty above which tracking is called degraded"});

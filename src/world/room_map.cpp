@@ -9,26 +9,25 @@ namespace sightline::world {
 
 namespace {
 
-using config::Node;
 using geometry::Segment;
 
-// What a building may measure [m]: beyond, squares overflow or vanish.
-constexpr config::Range kLengths{0.001, 1e6};
-constexpr config::Range kCoordinates{-1e6, 1e6};
-// A door may stand this far from the walls it pierces: half the thickest wall between two rooms.
-constexpr double kMaxDoorDistance = 0.5;
-// Drawn by hand, what lies in a wall may overshoot its corner by this much.
-constexpr double kSlack = 0.02;
+// What a drawing may leave open: chosen by what people draw, not measured.
+constexpr struct {
+  // A door may stand this far from the walls it pierces: half the thickest wall between two rooms.
+  double max_door_distance = 0.5;
+  // Drawn by hand, what lies in a wall may overshoot its corner by this much.
+  double slack = 0.02;
+} kDrawing;
 
-Eigen::Vector2d pointOf(const Node& node) {
-  const auto xy = node.numbers(2, kCoordinates);
-  return {xy[0], xy[1]};
+void requireWithin(const config::Range& range, double value, const std::string& key) {
+  if (!range.contains(value)) {
+    throw InvalidRoomMap(key, fmt::format("{} is outside {}", value, range.text()));
+  }
 }
 
-geometry::Pose2 poseOf(const Node& room) {
-  if (!room.has("pose")) return {};
-  const auto p = room.at("pose").numbers(3, kCoordinates);
-  return {p[0], p[1], p[2]};
+void requireCoordinates(const Eigen::Vector2d& point, const std::string& key) {
+  requireWithin(kBuildingCoordinates, point.x(), key);
+  requireWithin(kBuildingCoordinates, point.y(), key);
 }
 
 double signedArea(const std::vector<Eigen::Vector2d>& corners) {
@@ -49,86 +48,31 @@ bool cross(const Segment& a, const Segment& b) {
   return onOppositeSides(a, b.start, b.end) && onOppositeSides(b, a.start, a.end);
 }
 
-struct Outline {
-  std::vector<Eigen::Vector2d> corners;  // in the room's frame, counter-clockwise
-  std::vector<std::string> names;        // of the wall from each corner to the next
-
-  Segment side(std::size_t i) const { return {corners[i], corners[(i + 1) % corners.size()]}; }
-};
-
-Outline rectangle(const Node& size) {
-  const auto lengths = size.numbers(2, kLengths);
-  const double x = 0.5 * lengths[0];
-  const double y = 0.5 * lengths[1];
-  return {{{-x, -y}, {x, -y}, {x, y}, {-x, y}}, {"south", "east", "north", "west"}};
+Segment sideOf(const std::vector<Eigen::Vector2d>& corners, std::size_t i) {
+  return {corners[i], corners[(i + 1) % corners.size()]};
 }
 
-void checkSides(const Node& node, const Outline& outline) {
-  for (std::size_t i = 0; i < outline.corners.size(); ++i) {
-    const Segment side = outline.side(i);
-    if (!(side.length() >= kLengths.min)) node.fail(fmt::format("wall {} has no length", i));
+void requireSides(const std::vector<Eigen::Vector2d>& corners) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Segment side = sideOf(corners, i);
+    if (!(side.length() >= kBuildingLengths.min)) {
+      throw InvalidRoomMap("polygon", fmt::format("wall {} has no length", i));
+    }
     for (std::size_t j = 0; j < i; ++j) {
-      if (cross(side, outline.side(j))) node.fail(fmt::format("walls {} and {} cross", j, i));
+      if (cross(side, sideOf(corners, j))) {
+        throw InvalidRoomMap("polygon", fmt::format("walls {} and {} cross", j, i));
+      }
     }
   }
 }
 
-Outline polygon(const Node& node) {
-  Outline outline;
-  for (const Node& item : node.items()) {
-    outline.names.push_back(std::to_string(outline.corners.size()));
-    outline.corners.push_back(pointOf(item));
+void requireOutline(const std::vector<Eigen::Vector2d>& corners) {
+  for (const Eigen::Vector2d& corner : corners) requireCoordinates(corner, "polygon");
+  if (corners.size() < 3) throw InvalidRoomMap("polygon", "a polygon needs three corners");
+  if (!(signedArea(corners) > 0.0)) {
+    throw InvalidRoomMap("polygon", "the corners have to run counter-clockwise round an area");
   }
-  if (outline.corners.size() < 3) node.fail("a polygon needs three corners");
-  if (!(signedArea(outline.corners) > 0.0)) {
-    node.fail("the corners have to run counter-clockwise round an area");
-  }
-  checkSides(node, outline);
-  return outline;
-}
-
-Outline outlineOf(const Node& room) {
-  if (room.has("size") == room.has("polygon")) {
-    room.fail("a room has either the key 'size' or the key 'polygon'");
-  }
-  return room.has("size") ? rectangle(room.at("size")) : polygon(room.at("polygon"));
-}
-
-std::vector<Span> spansOf(const Node& wall, double length) {
-  std::vector<Span> spans;
-  for (const Node& item : wall.items()) {
-    const auto ends = item.numbers(2);
-    const Span span{std::max(0.0, ends[0]), std::min(length, ends[1])};
-    if (ends[0] < -kSlack || ends[1] > length + kSlack || span.from >= span.to) {
-      item.fail(
-          fmt::format("[{}, {}] is no stretch of a wall of {:.3f} m", ends[0], ends[1], length));
-    }
-    if (!spans.empty() && span.from < spans.back().to) item.fail("overlaps the span before it");
-    spans.push_back(span);
-  }
-  return spans;
-}
-
-std::string wallNames(const Room& room) {
-  std::vector<std::string> names;
-  for (const Wall& wall : room.walls) names.push_back(wall.name);
-  return fmt::format("its walls are: {}", fmt::join(names, ", "));
-}
-
-void readWall(const Node& node, Wall& wall) {
-  node.allowOnly({"spans", "open"});
-  if (node.has("spans") && node.has("open")) node.fail("either 'spans' or 'open', not both");
-  if (node.has("spans")) wall.spans = spansOf(node.at("spans"), wall.segment.length());
-  if (node.has("open") && node.at("open").flag()) wall.spans.clear();
-}
-
-void readWalls(const Node& node, Room& room) {
-  for (const auto& [name, wall_node] : node.entries()) {
-    const auto wall = std::find_if(room.walls.begin(), room.walls.end(),
-                                   [&key = name](const Wall& w) { return w.name == key; });
-    if (wall == room.walls.end()) wall_node.fail("no such wall in this room; " + wallNames(room));
-    readWall(wall_node, *wall);
-  }
+  requireSides(corners);
 }
 
 void cut(std::vector<Span>& spans, const Span& gap) {
@@ -148,25 +92,12 @@ std::size_t nearestWall(const Room& room, const Eigen::Vector2d& point) {
   return static_cast<std::size_t>(wall - room.walls.begin());
 }
 
-// Opens the wall that the door stands in and returns its index.
-std::size_t pierce(const Node& node, const Door& door, Room& room) {
-  const std::size_t index = nearestWall(room, door.centre_map);
-  Wall& wall = room.walls[index];
-  const double distance = wall.segment.distance(door.centre_map);
-  if (distance > kMaxDoorDistance) {
-    node.fail(
-        fmt::format("joins nothing: {:.2f} m from the nearest wall of '{}'", distance, room.name));
-  }
-  if (door.width > wall.segment.length() + kSlack) {
-    node.at("width").fail(fmt::format("{} m is wider than wall {} of '{}', {:.3f} m", door.width,
-                                      wall.name, room.name, wall.segment.length()));
-  }
-  const double middle = wall.segment.along(door.centre_map);
-  cut(wall.spans, {middle - 0.5 * door.width, middle + 0.5 * door.width});
-  return index;
-}
-
 }  // namespace
+
+Span openingOf(const Door& door, const Wall& wall) {
+  const double middle = wall.segment.along(door.centre_map);
+  return {middle - 0.5 * door.width, middle + 0.5 * door.width};
+}
 
 bool Room::contains(const Eigen::Vector2d& p) const {
   // Crossings of a ray along +x: works for any simple polygon.
@@ -187,46 +118,91 @@ double Room::distance(const Eigen::Vector2d& point_map) const {
   return nearest;
 }
 
-RoomMap::RoomMap(const Node& document) {
-  document.allowOnly({"rooms", "doors"});
-  for (const auto& [name, node] : document.at("rooms").entries()) addRoom(name, node);
-  if (rooms_.empty()) document.at("rooms").fail("no rooms");
-  if (!document.has("doors")) return;
-  for (const Node& door : document.at("doors").items()) addDoor(door);
-}
-
-void RoomMap::addRoom(const std::string& name, const Node& node) {
-  node.allowOnly({"size", "polygon", "pose", "walls"});
-  const Outline outline = outlineOf(node);
-  Room room{name, poseOf(node), {}};
-  for (std::size_t i = 0; i < outline.corners.size(); ++i) {
-    const Segment side = outline.side(i);
-    room.walls.push_back({outline.names[i], room.T_map_room * side, {{0.0, side.length()}}});
+std::size_t RoomMap::add(Room room, const std::vector<std::string>& wall_names) {
+  if (find(room.name)) throw InvalidRoomMap("name", fmt::format("'{}' is taken", room.name));
+  requireCoordinates(room.T_map_room.translation(), "pose");
+  requireWithin(kBuildingCoordinates, room.T_map_room.theta(), "pose");
+  for (std::size_t i = 0; i < room.corners.size(); ++i) {
+    const Segment side = room.T_map_room * sideOf(room.corners, i);
+    room.walls.push_back({wall_names[i], side, {{0.0, side.length()}}});
   }
-  if (node.has("walls")) readWalls(node.at("walls"), room);
   rooms_.push_back(std::move(room));
+  return rooms_.size() - 1;
 }
 
-std::size_t RoomMap::roomNamed(const Node& name) const {
-  const auto room = find(name.text());
-  if (!room) name.fail(fmt::format("no room is called '{}'", name.text()));
-  return *room;
+std::size_t RoomMap::addRectangle(const std::string& name, const Eigen::Vector2d& size,
+                                  const geometry::Pose2& T_map_room) {
+  requireWithin(kBuildingLengths, size.x(), "size");
+  requireWithin(kBuildingLengths, size.y(), "size");
+  const double x = 0.5 * size.x();
+  const double y = 0.5 * size.y();
+  return add({name, T_map_room, {}, {{-x, -y}, {x, -y}, {x, y}, {-x, y}}, true},
+             {"south", "east", "north", "west"});
 }
 
-void RoomMap::addDoor(const Node& node) {
-  node.allowOnly({"between", "at", "width", "threshold"});
-  const auto names = node.at("between").items();
-  if (names.size() != 2) node.at("between").fail("a door joins two rooms");
-  Door door;
-  door.centre_map = pointOf(node.at("at"));
-  door.width = node.at("width").number(kLengths);
-  if (node.has("threshold")) door.threshold = node.at("threshold").flag();
-  for (std::size_t side = 0; side < 2; ++side) {
-    door.rooms[side] = roomNamed(names[side]);
-    door.walls[side] = pierce(node, door, rooms_[door.rooms[side]]);
+std::size_t RoomMap::addPolygon(const std::string& name,
+                                const std::vector<Eigen::Vector2d>& corners_room,
+                                const geometry::Pose2& T_map_room) {
+  requireOutline(corners_room);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < corners_room.size(); ++i) names.push_back(std::to_string(i));
+  return add({name, T_map_room, {}, corners_room, false}, names);
+}
+
+void RoomMap::setSpans(const WallIndex& index, const std::vector<Span>& spans) {
+  if (index.room >= rooms_.size() || index.wall >= rooms_[index.room].walls.size()) {
+    throw InvalidRoomMap("", "no such wall");
   }
-  if (door.rooms[0] == door.rooms[1]) node.at("between").fail("joins a room with itself");
+  Wall& wall = rooms_[index.room].walls[index.wall];
+  const double length = wall.segment.length();
+  std::vector<Span> inside;
+  for (const Span& span : spans) {
+    const Span kept{std::max(0.0, span.from), std::min(length, span.to)};
+    const std::string key = std::to_string(inside.size());
+    const bool fits = span.from >= -kDrawing.slack && span.to <= length + kDrawing.slack;
+    if (!fits || !(kept.from < kept.to)) {
+      throw InvalidRoomMap(key, fmt::format("[{}, {}] is no stretch of a wall of {:.3f} m",
+                                            span.from, span.to, length));
+    }
+    if (!inside.empty() && kept.from < inside.back().to) {
+      throw InvalidRoomMap(key, "overlaps the span before it");
+    }
+    inside.push_back(kept);
+  }
+  wall.spans = std::move(inside);
+}
+
+void RoomMap::addDoor(std::size_t room, std::size_t other, const Eigen::Vector2d& centre_map,
+                      double width, bool threshold) {
+  if (std::max(room, other) >= rooms_.size()) throw InvalidRoomMap("between", "no such room");
+  requireCoordinates(centre_map, "at");
+  requireWithin(kBuildingLengths, width, "width");
+  Door door{{room, other}, {0, 0}, centre_map, width, threshold};
+  for (const std::size_t side : {0U, 1U}) door.walls[side] = pierce(door, door.rooms[side]);
+  if (room == other) throw InvalidRoomMap("between", "joins a room with itself");
+  for (const std::size_t side : {0U, 1U}) {
+    Wall& wall = rooms_[door.rooms[side]].walls[door.walls[side]];
+    cut(wall.spans, openingOf(door, wall));
+  }
   doors_.push_back(door);
+}
+
+// The wall of a room that a door opens.
+std::size_t RoomMap::pierce(const Door& door, std::size_t index) const {
+  const Room& room = rooms_[index];
+  const std::size_t nearest = nearestWall(room, door.centre_map);
+  const Segment& wall = room.walls[nearest].segment;
+  const double distance = wall.distance(door.centre_map);
+  if (distance > kDrawing.max_door_distance) {
+    throw InvalidRoomMap("", fmt::format("joins nothing: {:.2f} m from the nearest wall of '{}'",
+                                         distance, room.name));
+  }
+  if (door.width > wall.length() + kDrawing.slack) {
+    throw InvalidRoomMap("width",
+                         fmt::format("{} m is wider than wall {} of '{}', {:.3f} m", door.width,
+                                     room.walls[nearest].name, room.name, wall.length()));
+  }
+  return nearest;
 }
 
 std::optional<std::size_t> RoomMap::find(const std::string& name) const {

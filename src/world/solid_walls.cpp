@@ -11,12 +11,12 @@ using geometry::Segment;
 
 // Where the opening of a door cuts a wall: its two edges.
 std::pair<Eigen::Vector2d, Eigen::Vector2d> edgesOf(const Door& door, const Wall& wall) {
-  const double middle = wall.segment.along(door.centre_map);
+  const Span opening = openingOf(door, wall);
   const auto at = [&](double along) -> Eigen::Vector2d {
     return wall.segment.start +
            std::clamp(along, 0.0, wall.segment.length()) * wall.segment.direction();
   };
-  return {at(middle - 0.5 * door.width), at(middle + 0.5 * door.width)};
+  return {at(opening.from), at(opening.to)};
 }
 
 void addJambs(const Door& door, const RoomMap& map, std::vector<Segment>& walls) {
@@ -47,6 +47,16 @@ std::vector<Segment> solidWalls(const RoomMap& map) {
   }
   for (const Door& door : map.doors()) addJambs(door, map, walls);
   return walls;
+}
+
+World World::of(const RoomMap& map) {
+  World world;
+  for (const Segment& wall : solidWalls(map)) {
+    WorldSegment segment;
+    segment.segment = wall;
+    world.add(segment);
+  }
+  return world;
 }
 
 }  // namespace sightline::world

@@ -68,12 +68,21 @@ std::optional<std::size_t> World::findMaterial(const std::string& name) const {
   return std::nullopt;
 }
 
-void World::add(const WorldSegment& segment) {
-  const Eigen::Vector3d start = homogeneous(segment.segment.start);
-  const Eigen::Vector3d end = homogeneous(segment.segment.end);
+World::Side World::sideOf(const geometry::Segment& segment) {
+  const Eigen::Vector3d start = homogeneous(segment.start);
+  const Eigen::Vector3d end = homogeneous(segment.end);
   const Eigen::Vector3d line = start.cross(end);
-  sides_.push_back({line / line.head<2>().norm(), start, end});
+  return {line / line.head<2>().norm(), start, end};
+}
+
+void World::add(const WorldSegment& segment) {
+  sides_.push_back(sideOf(segment.segment));
   segments_.push_back(segment);
+}
+
+void World::replace(std::size_t index, const WorldSegment& segment) {
+  sides_[index] = sideOf(segment.segment);
+  segments_[index] = segment;
 }
 
 // The nearest one of the segments that are tried.

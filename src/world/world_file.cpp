@@ -10,18 +10,15 @@ namespace sightline::world {
 
 namespace {
 
-// As for rooms: beyond, squares overflow and distances come out as no numbers.
-constexpr config::Range kPlaces{-1e6, 1e6};
-constexpr config::Range kSizes{0.001, 1e6};
 constexpr config::Range kHeights{0.0, 1e6};
 
 Eigen::Vector2d planePoint(const config::Node& node) {
-  const auto xy = node.numbers(2, kPlaces);
+  const auto xy = node.numbers(2, kBuildingCoordinates);
   return {xy[0], xy[1]};
 }
 
 Eigen::Vector2d planeSize(const config::Node& node) {
-  const auto xy = node.numbers(2, kSizes);
+  const auto xy = node.numbers(2, kBuildingLengths);
   return {xy[0], xy[1]};
 }
 
@@ -94,13 +91,13 @@ class WorldFile {
 
   static geometry::Pose2 placeOf(const config::Node& node) {
     if (!node.has("pose")) return {};
-    const auto pose = node.at("pose").numbers(3, kPlaces);
+    const auto pose = node.at("pose").numbers(3, kBuildingCoordinates);
     return {pose[0], pose[1], pose[2]};
   }
 
   void readWallDefaults(const config::Node& node) {
     node.allowOnly({"height", "material"});
-    wall_height_ = node.numberOr("height", wall_height_, kSizes);
+    wall_height_ = node.numberOr("height", wall_height_, kBuildingLengths);
     wall_material_ = materialOf(node);
   }
 
@@ -117,13 +114,13 @@ class WorldFile {
 
   void readCeiling(const config::Node& node) {
     node.allowOnly({"height", "material"});
-    world_.add(WorldPlate{{}, node.at("height").number(kSizes), materialOf(node)});
+    world_.add(WorldPlate{{}, node.at("height").number(kBuildingLengths), materialOf(node)});
   }
 
   void readSegment(const config::Node& node) {
     node.allowOnly({"from", "to", "bottom", "top", "material"});
     const geometry::Segment segment{planePoint(node.at("from")), planePoint(node.at("to"))};
-    if (!(segment.length() >= kSizes.min)) node.fail("from and to are the same point");
+    if (!(segment.length() >= kBuildingLengths.min)) node.fail("from and to are the same point");
     const Upright upright = uprightOf(node);
     world_.add(WorldSegment{T_map_file_ * segment, upright.bottom, upright.top, upright.material});
   }
@@ -132,7 +129,7 @@ class WorldFile {
     node.allowOnly({"centre", "size", "yaw", "bottom", "top", "material"});
     const Eigen::Vector2d half = 0.5 * planeSize(node.at("size"));
     const geometry::Pose2 T_file_box(planePoint(node.at("centre")),
-                                     node.numberOr("yaw", 0.0, kPlaces));
+                                     node.numberOr("yaw", 0.0, kBuildingCoordinates));
     addBox(T_map_file_ * T_file_box, half, uprightOf(node));
   }
 
@@ -155,8 +152,8 @@ class WorldFile {
     node.allowOnly({"centre", "radius", "bottom", "top", "material"});
     const Upright upright = uprightOf(node);
     const Eigen::Vector2d centre_map = T_map_file_ * planePoint(node.at("centre"));
-    world_.add(WorldDisc{centre_map, node.at("radius").number(kSizes), upright.bottom, upright.top,
-                         upright.material});
+    world_.add(WorldDisc{centre_map, node.at("radius").number(kBuildingLengths), upright.bottom,
+                         upright.top, upright.material});
   }
 
   World& world_;

@@ -2,9 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <future>
-#include <iterator>
 #include <numeric>
 #include <random>
 #include <thread>
@@ -196,13 +194,7 @@ void measureCables() {
   disturbances.printFigures();
 }
 
-std::string shippedUrdf() {
-  std::ifstream file(SIGHTLINE_SOURCE_DIR "/urdf/active_sensor.urdf");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void measureHead() {
-  ros::param::set("/head/robot_description", shippedUrdf());
   const test::TemporaryFolder folder;
   HeadSteps(folder.path("")).run();
 }

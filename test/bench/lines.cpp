@@ -7,6 +7,7 @@
 
 #include "allocations.h"
 #include "lines/door.h"
+#include "lines/motion.h"
 #include "lines/recording.h"
 #include "lines/round_things.h"
 #include "lines/score.h"
@@ -167,6 +168,7 @@ int main() {
   runSingleWall("wall_facing", -1.5, 2.0);
   runSingleWall("wall_aside", 0.0, 2.0);
   runSingleWall("wall_oblique", 2.0, 1.5);
+  motionConsistency();
   runRecording();
   runNode();
   return 0;

@@ -16,10 +16,11 @@
 #include <Eigen/LU>
 
 #include "rooms/freiburg.h"
+#include "scripted_transforms.h"
 #include "sightline/geometry/angle.h"
 #include "sightline/geometry/statistics.h"
 #include "sightline/motion/pose_history.h"
-#include "sightline/pipeline/scan_motion.h"
+#include "sightline/pipeline/scan_feed.h"
 #include "sightline/scan/noise_model.h"
 #include "sightline/simulation/simulation.h"
 #include "sightline/tracking/room_tracker.h"
@@ -62,15 +63,8 @@ struct Sample {
   double microseconds = 0.0;
 };
 
-world::World twoRooms() {
-  world::World world;
-  const world::RoomMap map(config::Node::parse(kRooms, "two rooms"));
-  for (const geometry::Segment& wall : world::solidWalls(map)) {
-    world::WorldSegment segment;
-    segment.segment = wall;
-    world.add(segment);
-  }
-  return world;
+world::RoomMap twoRooms() {
+  return world::RoomMap(config::Node::parse(kRooms, "two rooms"));
 }
 
 simulation::ScannerProfile scannerProfile(const Scenario& scenario) {
@@ -120,19 +114,23 @@ class Run {
   Run(const Scenario& scenario, std::uint64_t seed, const tracking::TrackerConfig& config)
       : scenario_(scenario),
         random_(seed),
-        simulation_(twoRooms(), robotConfig(), start_, seed),
-        tracker_(config, world::RoomMap(config::Node::parse(kRooms, "two rooms"))) {
-    simulation_.addScanner(scannerProfile(scenario), {});
-    simulation_.follow(simulation::Path(config::Node::parse(kPath, "path")));
+        simulation_(world::World::of(twoRooms()), robotConfig(), start_, seed),
+        feed_(feedConfig(config), {}, {}, transforms_),
+        tracker_(config, twoRooms()) {
+    transforms_.mount("", Pose2());
+    feed_.addScanner();
+    simulation_.carrier().addScanner(scannerProfile(scenario), {});
+    simulation_.carrier().follow(simulation::Path(config::Node::parse(kPath, "path")));
     tracker_.setPose({start_, Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal()});
   }
 
   std::vector<Sample> samples() {
     while (simulation_.time() < static_cast<std::int64_t>(kSeconds * 1e9)) {
-      auto finished = simulation_.step();
+      auto finished = simulation_.step().sweeps;
       truth_.add(simulation_.time(), simulation_.robot().T_map_base());
-      odometry_.add(simulation_.time(), slip() * simulation_.robot().odometry().pose().mean);
-      for (auto& sweep : finished) track(sweep.scan);
+      transforms_.drive(simulation_.time(), slip() * simulation_.robot().odometry().pose().mean);
+      for (auto& sweep : finished) take(sweep.scan);
+      track();
     }
     return samples_;
   }
@@ -152,16 +150,29 @@ class Run {
     return T_slip_;
   }
 
-  void track(scan::Scan& scan) {
+  static pipeline::FeedConfig feedConfig(const tracking::TrackerConfig& config) {
+    pipeline::FeedConfig feed;
+    feed.noise.kind = scan::NoiseKind::kConstant;
+    feed.sweep_noise = config.odometry;
+    return feed;
+  }
+
+  void take(scan::Scan& scan) {
     addClutter(scenario_.clutter, random_, scan);
+    feed_.add(0, std::move(scan), simulation_.time());
+  }
+
+  void track() {
     const auto begin = std::chrono::steady_clock::now();
-    const auto odometry =
-        pipeline::addMotion(scan, [this](std::int64_t stamp) { return odometry_.at(stamp); }, {});
-    if (!odometry) return;
-    const auto update = tracker_.update(scan, *odometry, {});
-    const std::chrono::duration<double, std::micro> spent =
-        std::chrono::steady_clock::now() - begin;
-    if (update) score(*update, *truth_.at(scan.stamp), spent.count());
+    while (const auto result = feed_.next(simulation_.time())) {
+      const auto& located = result->located;
+      if (!located || !located->T_odom_base) continue;
+      const auto update =
+          tracker_.update(located->scan, *located->T_odom_base, *located->T_base_sensor);
+      const std::chrono::duration<double, std::micro> spent =
+          std::chrono::steady_clock::now() - begin;
+      if (update) score(*update, *truth_.at(result->stamp), spent.count());
+    }
   }
 
   void score(const tracking::TrackerUpdate& update, const Pose2& truth, double microseconds) {
@@ -175,9 +186,10 @@ class Run {
   Pose2 start_{-2.0, 1.0, -1.5};
   std::mt19937_64 random_;
   simulation::Simulation simulation_;
+  test::ScriptedTransforms transforms_;
+  pipeline::ScanFeed feed_;
   tracking::RoomTracker tracker_;
   motion::PoseHistory truth_;
-  motion::PoseHistory odometry_;
   bool slipped_ = false;
   Pose2 T_slip_;
   std::vector<Sample> samples_;

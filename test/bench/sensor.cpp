@@ -55,6 +55,7 @@ int main(int, char** argv) {
   bench::calibration();
   bench::edges(profile);
   bench::lineConsistency(profile);
+  bench::jitterConsistency(profile);
   bench::drawSegmentsAgainstGate(
       profile,
       std::filesystem::path(argv[0]).replace_filename("segments_against_gate.png").string());

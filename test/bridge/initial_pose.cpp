@@ -9,7 +9,7 @@
 namespace sightline::bridge {
 namespace {
 
-const std::vector<double> kSigma{0.3, 0.1};
+const std::array<double, 2> kSigma{0.3, 0.1};
 
 geometry_msgs::PoseWithCovarianceStamped goodMessage() {
   geometry_msgs::PoseWithCovarianceStamped message;

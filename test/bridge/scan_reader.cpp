@@ -40,17 +40,14 @@ std::string faultOf(const sensor_msgs::LaserScan& scan) {
 }
 
 TEST(ScanReader, TakesOverWhatTheMessageSays) {
-  scan::NoiseModel noise;
-  noise.sigma = 0.03;
   auto scan_message = message();
   scan_message.intensities = {5.0F, 6.0F, 7.0F, 8.0F, 9.0F};
-  const scan::Scan scan = ScanReader(noise).read(scan_message);
+  const scan::Scan scan = ScanReader().read(scan_message);
   EXPECT_EQ(scan.stamp, 12'000'000'345);
   EXPECT_EQ(scan.frame, "laser");
   EXPECT_THAT(scan.ranges(), testing::ElementsAre(1.0, 2.0, 3.0, 4.0, 5.0));
   EXPECT_THAT(scan.intensities(), testing::ElementsAre(5.0, 6.0, 7.0, 8.0, 9.0));
   EXPECT_THAT(scan.kinds(), testing::Each(ReturnKind::kValid));
-  EXPECT_THAT(scan.rangeVariances(), testing::Each(testing::DoubleNear(9e-4, 1e-9)));
   EXPECT_DOUBLE_EQ(scan.geometry()->angles()[2], 0.0);
   EXPECT_NEAR(scan.geometry()->timeOffsets()[4], 0.004, 1e-9);
   EXPECT_TRUE(scan.sensorMotion().empty());
@@ -136,17 +133,6 @@ TEST(ScanReader, NegativeIncrementsTurnClockwise) {
   const scan::Scan scan = ScanReader().read(scan_message);
   EXPECT_DOUBLE_EQ(scan.geometry()->angles()[0], 1.0);
   EXPECT_DOUBLE_EQ(scan.geometry()->angles()[4], -1.0);
-}
-
-TEST(ScanReader, UpsideDownTurnsTheOtherWay) {
-  ScanReader reader;
-  const scan::Scan upright = reader.read(message());
-  reader.setUpsideDown(true);
-  const scan::Scan turned = reader.read(message());
-  for (std::size_t i = 0; i < upright.beams(); ++i) {
-    EXPECT_DOUBLE_EQ(turned.geometry()->angles()[i], -upright.geometry()->angles()[i]);
-    EXPECT_DOUBLE_EQ(turned.point(i).y(), -upright.point(i).y());
-  }
 }
 
 TEST(ScanConversion, GoesThereAndBack) {

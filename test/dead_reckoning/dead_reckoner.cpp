@@ -29,7 +29,7 @@ void expectNear(const Pose2& estimate, const Pose2& truth, double position, doub
 bool isFinite(const DeadReckoningUpdate& update) {
   return update.pose.mean.isFinite() && update.pose.covariance.allFinite() &&
          update.step.mean.isFinite() && update.step.covariance.allFinite() &&
-         update.twist.allFinite() && update.twist_covariance.allFinite();
+         update.twist.mean.allFinite() && update.twist.covariance.allFinite();
 }
 
 // Along an arc through the furnished room.
@@ -272,7 +272,7 @@ TEST(DeadReckoner, ASweepIsCorrectedByTheMotionFound) {
   EXPECT_FALSE(update->isFlagged());
   expectNear(geometry::between(settled, update->pose.mean),
              geometry::between(onArc(kSettled), onArc(20)), 0.02, 0.01);
-  EXPECT_LT((update->twist - twist).cwiseAbs().maxCoeff(), 0.03);
+  EXPECT_LT((update->twist.mean - twist).cwiseAbs().maxCoeff(), 0.03);
 }
 
 TEST(DeadReckoner, AWrongPriorIsFoundOut) {

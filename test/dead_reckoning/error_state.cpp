@@ -90,5 +90,45 @@ TEST(ErrorState, AMatchBoundsTheErrorAgainstTheReference) {
   EXPECT_NEAR(errors.pose()(0, 0), errors.againstReference()(0, 0), 1e-7);
 }
 
+// What the motion within a sweep made of a pose goes away with the next match.
+TEST(ErrorState, TheErrorOfASweepsMotionIsMatchedAwayByTheNext) {
+  ErrorState errors;
+  PoseMeasurement measurement;
+  measurement.information = Eigen::Vector3d(1e6, 1e6, 1e6).asDiagonal();
+  const StepPrediction prediction = predictStep(CarrierConfig(), {0.5, 0.0, 0.3}, kStepTime);
+  PoseMeasurement noisy = measurement;
+  noisy.motion_covariance = Eigen::Vector3d(1e-2, 1e-2, 1e-3).asDiagonal();
+  Pose2 pose;
+  const auto take = [&](const PoseMeasurement& taken) {
+    const Eigen::Matrix3d step =
+        errors.advance(pose, prediction, prediction.step, kStepTime, taken);
+    pose = pose * prediction.step;
+    return step;
+  };
+  take(noisy);
+  errors.handOver(0.5);
+  EXPECT_GT(errors.pose()(0, 0), 1e-2);
+  EXPECT_GT(errors.againstReference()(0, 0), 1e-2);
+  // The step back from it has the error once more.
+  EXPECT_GT(take(measurement)(0, 0), 0.9e-2);
+  EXPECT_LT(errors.pose()(0, 0), 1e-3);
+}
+
+// A reference that begins with a scan shows its surfaces where the motion within it put them.
+TEST(ErrorState, AFirstScansMotionIsInTheStepAwayFromIt) {
+  ErrorState errors;
+  errors.displace(Eigen::Vector3d(1e-2, 1e-2, 1e-3).asDiagonal());
+  errors.handOver(1.0);
+  EXPECT_TRUE(errors.pose().isZero(0.0));
+  EXPECT_DOUBLE_EQ(errors.againstReference()(0, 0), 1e-2);
+  PoseMeasurement measurement;
+  measurement.information = 1e6 * Eigen::Matrix3d::Identity();
+  measurement.common = 0.5;
+  const StepPrediction prediction = predictStep(CarrierConfig(), {0.5, 0.0, 0.0}, kStepTime);
+  const Eigen::Matrix3d step =
+      errors.advance({}, prediction, prediction.step, kStepTime, measurement);
+  EXPECT_NEAR(step(0, 0), 1e-2, 1e-3);
+}
+
 }  // namespace
 }  // namespace sightline::dead_reckoning

@@ -21,8 +21,8 @@ namespace {
 using geometry::Pose2;
 using test::Viewer;
 
-Sweep sweepFrom(Viewer& viewer, const Pose2& pose) {
-  return readSweep(viewer.look(pose, 0.0), Pose2(), Eigen::Vector3d::Zero());
+SurfaceScan surfacesFrom(Viewer& viewer, const Pose2& pose) {
+  return readSurfaces(viewer.look(pose, 0.0), Pose2(), Eigen::Vector3d::Zero());
 }
 
 TEST(IterativeSearch, TakesNinetySixEvaluationsToTheGridsMinimum) {
@@ -90,9 +90,9 @@ TEST(AngleHistogram, CandidatesAreTheMaximaOfTheCorrelation) {
 
 TEST(AngleHistogram, FindsTheTurnOfAScan) {
   Viewer viewer(test::furnishedRoom(), test::scanner(), 2);
-  const Sweep reference = sweepFrom(viewer, {0.0, 0.0, 0.0});
+  const SurfaceScan reference = surfacesFrom(viewer, {0.0, 0.0, 0.0});
   for (const double turn : {-0.5, -0.1, 0.2, 0.6}) {
-    const Sweep turned = sweepFrom(viewer, {0.1, 0.0, turn});
+    const SurfaceScan turned = surfacesFrom(viewer, {0.1, 0.0, turn});
     const auto candidates = correlateHistograms(angleHistogram(reference.points, 20, 360),
                                                 angleHistogram(turned.points, 20, 360), 0.0, 0.7);
     ASSERT_FALSE(candidates.empty());
@@ -122,31 +122,31 @@ TEST(SortedPoints, FindTheNearestNeighbour) {
 
 TEST(PoseSpace, CorrelationFindsTheMotion) {
   Viewer viewer(test::furnishedRoom(), test::scanner(), 6);
-  const Sweep reference = sweepFrom(viewer, {0.0, 0.0, 0.0});
+  const SurfaceScan reference = surfacesFrom(viewer, {0.0, 0.0, 0.0});
   const Pose2 motion(0.21, -0.13, 0.22);
-  const Sweep sweep = sweepFrom(viewer, motion);
+  const SurfaceScan surfaces = surfacesFrom(viewer, motion);
   const PoseSpaceConfig config;
   const Correlation found =
-      correlatePoses(sweep.points, SortedPoints(reference.points), {Pose2(), 0.4, 0.5}, config);
+      correlatePoses(surfaces.points, SortedPoints(reference.points), {Pose2(), 0.4, 0.5}, config);
   const Pose2 error = geometry::between(motion, found.T_reference_base);
   EXPECT_LT(error.translation().norm(), config.step);
   EXPECT_LT(std::abs(error.theta()), 2.0 * config.angle_step);
-  EXPECT_GT(found.count, sweep.points.size() / 2);
+  EXPECT_GT(found.count, surfaces.points.size() / 2);
 }
 
 TEST(CorrelativeSearch, FindsAScanAnywhereInItsWindow) {
   Viewer viewer(test::furnishedRoom(), test::scanner(), 8);
   Submap submap;
-  submap.add({}, sweepFrom(viewer, {}), 10);
-  CorrelativeSearch search;
+  submap.add({}, surfacesFrom(viewer, {}), 10);
+  const SearchRasters rasters(submap, Eigen::Vector2d::Zero());
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 20; ++i) {
     const Pose2 pose(0.8 * unit(random), 0.8 * unit(random), 0.9 * unit(random));
     const auto found =
-        search.search(sweepFrom(viewer, pose).points, submap, {Pose2(), 0.8, 0.9}, 5);
+        searchRasters(surfacesFrom(viewer, pose).points, rasters, {Pose2(), 0.8, 0.9}, 5);
     bool near = false;
-    for (const SearchCandidate& candidate : found) {
+    for (const SearchCandidate& candidate : found.candidates) {
       const Pose2 error = geometry::between(pose, candidate.T_odom_base);
       near = near || (error.translation().norm() < 0.2 && std::abs(error.theta()) < 0.06);
     }
@@ -156,7 +156,7 @@ TEST(CorrelativeSearch, FindsAScanAnywhereInItsWindow) {
 
 TEST(RangeProfile, KnowsWhatAScanSaw) {
   Viewer viewer(test::squareRoom(), test::scanner(), 1);
-  const RangeProfile profile(sweepFrom(viewer, {}));
+  const RangeProfile profile(surfacesFrom(viewer, {}));
   EXPECT_EQ(profile.at({1.0, 0.0}), Sight::kFree);
   EXPECT_EQ(profile.at({2.0, 0.3}), Sight::kSurface);
   EXPECT_EQ(profile.at({3.0, 0.0}), Sight::kHidden);
@@ -165,16 +165,16 @@ TEST(RangeProfile, KnowsWhatAScanSaw) {
 
 TEST(SurfacePoints, WallsHaveNormalsTowardsTheSensorUpToTheCorners) {
   Viewer viewer(test::squareRoom(), test::scanner(), 1);
-  const Sweep sweep = sweepFrom(viewer, {});
+  const SurfaceScan surfaces = surfacesFrom(viewer, {});
   std::size_t straight = 0;
-  for (const SurfacePoint& point : sweep.points) {
+  for (const SurfacePoint& point : surfaces.points) {
     if (!point.hasNormal()) continue;
     EXPECT_LT(point.normal.dot(point.position), 0.0);
     // Every wall is level or upright.
     const double off = point.normal.cwiseAbs().minCoeff();
     if (off < 0.2) ++straight;
   }
-  EXPECT_GT(straight, sweep.points.size() * 95 / 100);
+  EXPECT_GT(straight, surfaces.points.size() * 95 / 100);
 }
 
 TEST(SurfacePoints, NormalsErrAsTheySay) {
@@ -182,7 +182,7 @@ TEST(SurfacePoints, NormalsErrAsTheySay) {
   double count = 0.0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Viewer viewer(test::plainCorridor(), test::scanner(361, geometry::kPi, 8.0), seed);
-    for (const SurfacePoint& point : sweepFrom(viewer, {}).points) {
+    for (const SurfacePoint& point : surfacesFrom(viewer, {}).points) {
       if (!point.hasNormal()) continue;
       const double error = std::atan2(point.normal.x(), std::abs(point.normal.y()));
       squares += error * error / point.normal_variance;

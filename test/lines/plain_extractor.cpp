@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lines/noisy_motion.h"
 #include "monte_carlo.h"
 #include "sightline/motion/sweep.h"
 
@@ -55,6 +56,37 @@ TEST(PlainExtractor, FollowsAWallWhileTheHeadTurns) {
     EXPECT_GT(whole, 290) << turn;
     EXPECT_NEAR(nees.mean()[0], 2.0, 0.4) << turn;
   }
+}
+
+// Beams so close that the recursion does not break up, by a head whose angle walks: the process
+// that eqs 21, 23 and 24 are of.
+TEST(PlainExtractor, TakesTheNoiseOfTheMotionIntoItsPredictions) {
+  test::Gauss gauss(2);
+  LineExtractorConfig config;
+  config.gate = 5.0;
+  PlainExtractor extractor(config);
+  test::NoisySweep sweep;
+  sweep.scan = test::wallAhead(1.5, -0.6, 0.7);
+  sweep.scan.noise.sigma = 1e-5;
+  sweep.motion = {0.02, -0.01, 0.3};
+  sweep.noise.walk.diagonal() << 1e-8, 1e-8, 1e-6;
+  test::Moments<1> nees;
+  int whole_where_ignored = 0;
+  for (int run = 0; run < 400; ++run) {
+    scan::Scan scan = sweep.take(gauss);
+    for (const bool known : {true, false}) {
+      if (!known) scan.motion_noise = {};
+      const auto& segments = extractor.extract(scan);
+      if (segments.size() != 1) continue;
+      const Eigen::Vector2d error = geometry::difference(segments[0].line, sweep.wall());
+      const double squared = test::normalisedSquare<2>(error, segments[0].line.covariance);
+      if (!known) ++whole_where_ignored;
+      if (known) nees.add(Eigen::Matrix<double, 1, 1>(squared));
+    }
+  }
+  EXPECT_GT(nees.count(), 380);
+  EXPECT_NEAR(nees.mean()[0], 2.0, 0.3);
+  EXPECT_LT(whole_where_ignored, 200);
 }
 
 TEST(PlainExtractor, StartsAnewWhereAnObservationIsNotValidated) {

@@ -83,8 +83,8 @@ class Robot {
     profile.angle_min = geometry::radians(-120.0);
     profile.angle_max = geometry::radians(120.0);
     profile.rate = 10.0;
-    if (kind.is_person) simulation_.walk({});
-    simulation_.addScanner(profile, kind.mounting);
+    if (kind.is_person) simulation_.carrier().walk({});
+    simulation_.carrier().addScanner(profile, kind.mounting);
     static ros::Time next_start(1000, 0);
     start_ = next_start;
     next_start += ros::Duration(100000.0);
@@ -102,11 +102,11 @@ class Robot {
   // Drives until the next scan.
   scan::Scan nextScan() {
     while (true) {
-      simulation_.command({0.5, 0.25});
-      auto sweeps = simulation_.step();
+      simulation_.carrier().command({0.5, 0.25});
+      const simulation::Outputs outputs = simulation_.step();
       if (sends_wheels) wheels_.publish(wheelMessage());
-      if (sends_imu) imu_.publish(imuMessage());
-      if (!sweeps.empty()) return sweeps.front().scan;
+      if (sends_imu) imu_.publish(imuMessage(outputs.motions.front()));
+      if (!outputs.sweeps.empty()) return outputs.sweeps.front().scan;
     }
   }
 
@@ -140,7 +140,7 @@ class Robot {
                              geometry::between(first_, bridge::toPose2(answer.pose.pose)));
   }
 
-  Pose2 truthAt(std::int64_t stamp) const { return simulation_.T_map_base(stamp); }
+  Pose2 truthAt(std::int64_t stamp) const { return simulation_.carrier().T_map_base(stamp); }
   std::size_t answers() const { return answers_.count(); }
 
   Pose2 truth;
@@ -156,12 +156,9 @@ class Robot {
         {truthAt(simulation_.time()), Eigen::Matrix3d::Zero()}, {});
   }
 
-  sensor_msgs::Imu imuMessage() const {
-    const auto time = simulation_.time();
-    const Pose2 earlier = truthAt(time - simulation::Simulation::kStep);
-    const double turned = geometry::between(earlier, truthAt(time)).theta();
+  sensor_msgs::Imu imuMessage(const simulation::ReportedMotion& motion) const {
     return bridge::toImuMessage(bridge::nanoseconds(now()), kind_.prefix + "base_link",
-                                simulation_.bodyMotion(time).attitude, turned / 0.005);
+                                motion.attitude, motion.turn_rate);
   }
 
   Kind kind_;

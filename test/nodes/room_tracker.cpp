@@ -313,7 +313,7 @@ TEST_F(RoomTrackerNode, ClockSetBackStartsAgain) {
 
 TEST(RoomTrackerProgram, RefusesABadRoomsFileWithFileLineAndKey) {
   const std::string command =
-      "rosrun sightline room_tracker __name:=refused _rooms:=" + std::string(SIGHTLINE_SOURCE_DIR) +
+      "rosrun sightline room_tracker __name:=refused _map:=" + std::string(SIGHTLINE_SOURCE_DIR) +
       "/config/sensors/utm30lx.yaml 2>&1";
   FILE* program = popen(command.c_str(), "r");
   ASSERT_TRUE(program);

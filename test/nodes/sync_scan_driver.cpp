@@ -1,4 +1,5 @@
 // The driver against emulated devices that behave, and others that do not.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -10,11 +11,15 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <tf2_msgs/TFMessage.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
 
 #include "nodes/driver_test.h"
 #include "nodes/quantisation.h"
 #include "nodes/recorder.h"
 #include "sightline/HeadCommand.h"
+#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/range_scan_conversion.h"
 #include "sightline/lines/line_extractor.h"
 #include "tools/program.h"
@@ -143,6 +148,53 @@ TEST_F(HeadCommands, TurnTheHead) {
   send(HeadCommand::STOP, 0.0, 0.0);
   EXPECT_TRUE(comesTrue([&] { return stands(); }));
   EXPECT_GT(angle(), -1.0) << "it halts at its limits anyway";
+}
+
+// Every sample is known to tf, to what a servo leaves the straight line by between two of those
+// that are told, and all of a scan come at once.
+TEST_F(HeadCommands, TurnTheHeadInTf) {
+  tf2_ros::Buffer buffer(ros::Duration(60.0));
+  tf2_ros::TransformListener listener(buffer);
+  Recorder<tf2_msgs::TFMessage> transforms("/tf");
+  Recorder<RangeScan> scans("/head/range_scan");
+  ASSERT_TRUE(
+      buffer.canTransform("active_sensor", "projection", ros::Time(0), ros::Duration(30.0)));
+  const RangeScan first = scans.next();
+  send(HeadCommand::RATE, 0.0, 0.8);
+  EXPECT_TRUE(comesTrue([&] { return angle() > 0.6; }));
+  send(HeadCommand::STOP, 0.0, 0.0);
+  std::size_t turning = 0;
+  for (const RangeScan& scan : scans.all()) {
+    if (scan.header.stamp <= first.header.stamp) continue;
+    turning += scan.head_angles.front() == scan.head_angles.back() ? 0 : 1;
+    for (std::size_t i = 0; i < scan.head_angles.size(); ++i) {
+      const ros::Time time =
+          scan.header.stamp + ros::Duration(static_cast<double>(i) * scan.time_increment);
+      // The last sample, as float seconds have it, may be a hair after the newest transform.
+      ASSERT_TRUE(buffer.canTransform("active_sensor", "head", time, ros::Duration(10.0)));
+      const auto pose =
+          bridge::toPose2(buffer.lookupTransform("active_sensor", "head", time).transform);
+      ASSERT_NEAR(pose.theta(), scan.head_angles[i], 6e-4);
+    }
+  }
+  EXPECT_GE(turning, 5U);
+  std::size_t most = 0;
+  for (const auto& message : transforms.all()) most = std::max(most, message.transforms.size());
+  EXPECT_GE(most, 10U);
+  const auto T_head_projection =
+      bridge::toPose2(buffer.lookupTransform("head", "projection", ros::Time(0)).transform);
+  EXPECT_NEAR(T_head_projection.x(), 0.05, 1e-12);
+  EXPECT_NEAR(T_head_projection.y(), -0.03, 1e-12);
+}
+
+TEST_F(SyncScanDriver, SaysNothingToTfWhereItShallNot) {
+  Recorder<tf2_msgs::TFMessage> transforms("/tf");
+  Recorder<sensor_msgs::JointState> joints("/mute/joint_states");
+  device_.emplace(folder_.path("mute"), FirmwareConfig{}, deviceInLivingRoom(), 1);
+  drivers_.push_back(std::make_unique<DriverProcess>(
+      "mute", std::vector<std::string>{"_port:=" + folder_.path("mute"), "_publish_tf:=false"}));
+  joints.atLeast(10);
+  EXPECT_EQ(transforms.count(), 0U);
 }
 
 TEST_F(HeadCommands, AreRefusedByNameAndTheHeadStaysWhereItIs) {

@@ -1,5 +1,4 @@
 #include "sightline/pipeline/scan_odometry.h"
-#include "scan_edits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "config_error.h"
+#include "scan_edits.h"
+#include "sightline/motion/floor.h"
 #include "sightline/motion/pose_history.h"
 #include "sightline/simulation/simulation.h"
 
@@ -36,7 +37,7 @@ world::World room() {
 class Walk {
  public:
   explicit Walk(bool nods = false) : simulation_(room(), {}, Pose2(-2.0, -1.0, 0.2), 3) {
-    if (nods) simulation_.walk({});
+    if (nods) simulation_.carrier().walk({});
     simulation::ScannerProfile profile;
     profile.beams = 361;
     profile.angle_min = radians(-90.0);
@@ -44,7 +45,7 @@ class Walk {
     profile.rate = 10.0;
     simulation::Mounting mounting;
     mounting.z = 1.2;
-    simulation_.addScanner(profile, mounting);
+    simulation_.carrier().addScanner(profile, mounting);
   }
 
   const simulation::Simulation& simulation() const { return simulation_; }
@@ -52,19 +53,20 @@ class Walk {
   template <class Take>
   void run(double seconds, const Take& take) {
     while (1e-9 * static_cast<double>(simulation_.time()) < seconds) {
-      simulation_.command({0.5, 0.25});
-      auto sweeps = simulation_.step();
+      simulation_.carrier().command({0.5, 0.25});
+      auto sweeps = simulation_.step().sweeps;
       wheels_.add(simulation_.time(), simulation_.robot().odometry().pose().mean);
       for (auto& sweep : sweeps) take(sweep.scan);
     }
   }
 
   std::optional<Pose2> wheelsAt(std::int64_t stamp) const { return wheels_.at(stamp); }
-  Pose2 truthAt(std::int64_t stamp) const { return simulation_.T_map_base(stamp); }
+  Pose2 truthAt(std::int64_t stamp) const { return simulation_.carrier().T_map_base(stamp); }
 
-  dead_reckoning::SweepAttitude attitudeOf(const scan::Scan& scan) const {
+  motion::SweepAttitude attitudeOf(const scan::Scan& scan) const {
     const auto end = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets().back());
-    return {simulation_.bodyMotion(scan.stamp).attitude, simulation_.bodyMotion(end).attitude};
+    return {simulation_.carrier().bodyMotion(scan.stamp).attitude,
+            simulation_.carrier().bodyMotion(end).attitude};
   }
 
  private:
@@ -72,21 +74,34 @@ class Walk {
   motion::PoseHistory wheels_;
 };
 
+LocatedScan located(const scan::Scan& scan) {
+  LocatedScan result;
+  result.scan = scan;
+  result.T_base_sensor = Pose2();
+  return result;
+}
+
 Pose2 errorOf(const DeadReckoningUpdate& update, const Pose2& truth_first, const Pose2& truth) {
   return geometry::between(geometry::between(truth_first, truth), update.pose.mean);
 }
 
-void expectToFollow(ScanOdometryConfig config, bool nods, bool knows_attitude) {
+// A scanner whose attitude is known, as the estimators hand it on: level, and without floor.
+LocatedScan levelledScan(const scan::Scan& scan, const motion::SweepAttitude& attitude) {
+  const auto on_floor = motion::beamsOnFloor({}, scan, attitude);
+  LocatedScan result = located(motion::without(motion::levelled(scan, attitude), on_floor));
+  result.attitude = attitude;
+  return result;
+}
+
+void expectToFollow(const ScanOdometryConfig& config, bool nods, bool knows_attitude) {
   Walk walk(nods);
-  config.leans = nods;
-  ScanOdometry odometry(config);
+  ScanOdometry odometry(config, nods ? std::make_optional(motion::FloorConfig()) : std::nullopt);
   std::optional<Pose2> first;
   walk.run(10.0, [&](const scan::Scan& scan) {
     const Pose2 truth = walk.truthAt(scan.stamp);
     if (!first) first = truth;
-    OdometryAids aids;
-    if (knows_attitude) aids.attitude = walk.attitudeOf(scan);
-    const auto update = odometry.update(scan, Pose2(), aids);
+    const auto update =
+        odometry.update(knows_attitude ? levelledScan(scan, walk.attitudeOf(scan)) : located(scan));
     ASSERT_TRUE(update);
     const Pose2 error = errorOf(*update, *first, truth);
     EXPECT_LT(error.translation().norm(), 0.06);
@@ -105,29 +120,6 @@ TEST(ScanOdometry, FollowsAPersonWhoNods) {
   expectToFollow(config, /*nods=*/true, /*knows_attitude=*/true);
 }
 
-TEST(ScanOdometry, WithAnAttitudeTheFloorIsLeftOut) {
-  ScanOdometryConfig config;
-  config.leans = true;
-  ScanOdometry odometry(config);
-  simulation::ScannerProfile profile;
-  simulation::Mounting mounting;
-  mounting.z = 1.2;
-  simulation::Scanner scanner(profile, mounting, 1);
-  simulation::BodyMotion motion;
-  motion.attitude.pitch = radians(20.0);
-  const auto scan = scanner.sweepInSpace(room(), 1, [&](std::int64_t) {
-    return simulation::inSpace(Pose2(-2.0, 0.0, 0.0)) * motion.outOfPlane(1.2);
-  });
-  OdometryAids aids;
-  aids.attitude = dead_reckoning::SweepAttitude{motion.attitude, motion.attitude};
-  const auto update = odometry.update(scan, Pose2(), aids);
-  ASSERT_TRUE(update);
-  const auto floor =
-      std::count(odometry.beamsOnFloor().begin(), odometry.beamsOnFloor().end(), true);
-  EXPECT_GT(floor, 200);
-  EXPECT_EQ(update->beams + static_cast<std::size_t>(floor), scan.beams());
-}
-
 TEST(ScanOdometry, BeginsWhereTheWheelsAre) {
   Walk walk;
   ScanOdometry odometry({});
@@ -135,13 +127,13 @@ TEST(ScanOdometry, BeginsWhereTheWheelsAre) {
   std::optional<Pose2> first;
   Pose2 last;
   walk.run(5.0, [&](const scan::Scan& scan) {
-    OdometryAids aids;
-    aids.T_odom_base = elsewhere * *walk.wheelsAt(std::max<std::int64_t>(
-                                       scan.stamp, simulation::Simulation::kStep));
-    const auto update = odometry.update(scan, Pose2(), aids);
+    LocatedScan aided = located(scan);
+    aided.T_odom_base = elsewhere * *walk.wheelsAt(std::max<std::int64_t>(
+                                        scan.stamp, simulation::Simulation::kStep));
+    const auto update = odometry.update(aided);
     ASSERT_TRUE(update);
     if (!first) {
-      EXPECT_EQ(update->pose.mean.coordinates(), aids.T_odom_base->coordinates());
+      EXPECT_EQ(update->pose.mean.coordinates(), aided.T_odom_base->coordinates());
       first = walk.truthAt(scan.stamp);
     }
     last = geometry::between(geometry::between(*first, walk.truthAt(scan.stamp)),
@@ -163,13 +155,13 @@ TEST(ScanOdometry, AGyroscopeBringsItThroughScansThatSayNothing) {
     if (time > 3.0 && time < 3.5) {
       test::setKinds(scan, scan::ReturnKind::kInvalid);
     }
-    OdometryAids aids;
+    LocatedScan aided = located(scan);
     if (before) {
-      aids.turn = geometry::between(walk.truthAt(*before), truth).theta();
-      turned += *aids.turn;
+      aided.turn = geometry::between(walk.truthAt(*before), truth).theta();
+      turned += *aided.turn;
     }
     before = scan.stamp;
-    const auto update = odometry.update(scan, Pose2(), aids);
+    const auto update = odometry.update(aided);
     ASSERT_TRUE(update);
     EXPECT_LT(std::abs(geometry::wrapAngle(errorOf(*update, *first, truth).theta())), 0.02);
   });
@@ -186,7 +178,7 @@ TEST(ScanOdometry, GoesOnAfterAGapOfAnyLength) {
     walk.run(4.0, [&](scan::Scan scan) {
       const Pose2 truth = walk.truthAt(scan.stamp);
       if (++scans >= 20) scan.stamp += gap;
-      const auto update = odometry.update(scan, Pose2());
+      const auto update = odometry.update(located(scan));
       ASSERT_TRUE(update);
       if (scans < 20) return;
       if (!first) {
@@ -212,13 +204,13 @@ TEST(ScanOdometry, AnHourOfScansThatSayNothingIsOutlived) {
       test::setKinds(blind, scan::ReturnKind::kInvalid);
       for (; delay < 3'600'000'000'000; delay += 2'500'000'000) {
         blind.stamp = scan.stamp + delay;
-        const auto update = odometry.update(blind, Pose2());
+        const auto update = odometry.update(located(blind));
         ASSERT_TRUE(update);
         EXPECT_TRUE(update->isFlagged() && update->pose.mean.isFinite());
       }
     }
     scan.stamp += delay;
-    const auto update = odometry.update(scan, Pose2());
+    const auto update = odometry.update(located(scan));
     ASSERT_TRUE(update);
     if (scans <= 25) return;
     EXPECT_GT(update->inliers, 0.5) << "it matches again";
@@ -231,13 +223,13 @@ TEST(ScanOdometry, ForgetsWhereItWas) {
   int scans = 0;
   walk.run(3.0, [&](const scan::Scan& scan) {
     if (++scans == 20) odometry.reset();
-    const auto update = odometry.update(scan, Pose2());
+    const auto update = odometry.update(located(scan));
     ASSERT_TRUE(update);
     if (scans == 20) {
       EXPECT_EQ(update->state, dead_reckoning::MatchState::kInitial);
       EXPECT_EQ(update->pose.mean.coordinates(), Eigen::Vector3d::Zero());
     }
-    EXPECT_FALSE(odometry.update(scan, Pose2())) << "the same scan once more";
+    EXPECT_FALSE(odometry.update(located(scan))) << "the same scan once more";
   });
 }
 
@@ -249,7 +241,7 @@ TEST(ScanOdometry, ClockSetBackKeepsThePose) {
   walk.run(3.0, [&](scan::Scan scan) {
     if (++scans == 20) odometry.restartClock();
     if (scans >= 20) scan.stamp -= 2'500'000'000;
-    const auto update = odometry.update(scan, Pose2());
+    const auto update = odometry.update(located(scan));
     ASSERT_TRUE(update);
     EXPECT_LT((update->pose.mean.translation() - before.translation()).norm(), 0.2);
     before = update->pose.mean;

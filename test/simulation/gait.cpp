@@ -128,13 +128,13 @@ TEST(BodyWorn, TheAttitudeIsTheOneThatTheScansShow) {
   Simulation simulation(floorAndCeiling(), {}, Pose2(), 7);
   GaitConfig gait;
   gait.speed = 0.8;
-  simulation.walk(gait);
-  simulation.addScanner(exactScanner(), atBreastHeight());
+  simulation.carrier().walk(gait);
+  simulation.carrier().addScanner(exactScanner(), atBreastHeight());
   double steepest = 0.0;
   while (simulation.time() < 20'000'000'000) {
-    simulation.command({0.8, 0.3});
-    for (const FinishedSweep& sweep : simulation.step()) {
-      const BodyMotion motion = simulation.bodyMotion(sweep.scan.stamp);
+    simulation.carrier().command({0.8, 0.3});
+    for (const FinishedSweep& sweep : simulation.step().sweeps) {
+      const BodyMotion motion = simulation.carrier().bodyMotion(sweep.scan.stamp);
       const double pitch = motion.attitude.pitch;
       if (std::abs(pitch) < 0.06) continue;  // beyond the scanner's reach
       const double room = pitch > 0.0 ? 1.2 + motion.bob : 1.4 - motion.bob;
@@ -147,14 +147,14 @@ TEST(BodyWorn, TheAttitudeIsTheOneThatTheScansShow) {
 
 TEST(BodyWorn, SwaysAboutTheWay) {
   Simulation simulation(floorAndCeiling(), {}, Pose2(), 7);
-  simulation.walk({});
+  simulation.carrier().walk({});
   double farthest = 0.0;
   double sum = 0.0;
   int steps = 0;
   while (simulation.time() < 30'000'000'000) {
-    simulation.command({1.0, 0.0});
+    simulation.carrier().command({1.0, 0.0});
     simulation.step();
-    const double y = simulation.T_map_base(simulation.time()).y();
+    const double y = simulation.carrier().T_map_base(simulation.time()).y();
     farthest = std::max(farthest, std::abs(y));
     sum += y;
     ++steps;
@@ -166,15 +166,15 @@ TEST(BodyWorn, SwaysAboutTheWay) {
 TEST(BodyWorn, ARobotKeepsLevel) {
   Simulation simulation(floorAndCeiling(), {}, Pose2(1.0, 2.0, 0.3), 7);
   for (int i = 0; i < 100; ++i) simulation.step();
-  EXPECT_EQ(simulation.bodyMotion(simulation.time()).attitude.pitch, 0.0);
-  EXPECT_EQ(simulation.T_map_base(simulation.time()).y(), 2.0);
+  EXPECT_EQ(simulation.carrier().bodyMotion(simulation.time()).attitude.pitch, 0.0);
+  EXPECT_EQ(simulation.carrier().T_map_base(simulation.time()).y(), 2.0);
 }
 
 TEST(BodyWorn, RefusesAGaitOutOfRange) {
   Simulation simulation(floorAndCeiling(), {}, Pose2(), 7);
   GaitConfig gait;
   gait.step_rate = 0.0;
-  EXPECT_THROW(simulation.walk(gait), config::Error);
+  EXPECT_THROW(simulation.carrier().walk(gait), config::Error);
 }
 
 }  // namespace

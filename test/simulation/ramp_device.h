@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "sightline/driver/device_model.h"
+#include "sightline/simulation/device_model.h"
 
 namespace sightline::test {
 
 /// A device without a world: currents that tell which scan and sample they are of, and a head that
 /// is at once where it is told to be.
-class RampDevice : public driver::DeviceModel {
+class RampDevice : public simulation::DeviceModel {
  public:
   static constexpr int kSamples = 256;
   static constexpr std::int64_t kSample = 400'000;  ///< [ns]

@@ -52,10 +52,10 @@ TEST(Robot, DrivesArcs) {
 TEST(Simulation, StopsWhenCommandsCeaseToCome) {
   RobotConfig config;
   Simulation simulation(box(50.0), config, {}, 1);
-  simulation.command({0.4, 0.3});
+  simulation.carrier().command({0.4, 0.3});
   run(simulation, 0.45);
   EXPECT_GT(simulation.robot().velocity().linear, 0.2);
-  simulation.command({0.4, 0.3});
+  simulation.carrier().command({0.4, 0.3});
   run(simulation, 0.45);
   EXPECT_DOUBLE_EQ(simulation.robot().velocity().linear, 0.4) << "the second one renewed it";
   run(simulation, config.command_timeout + 0.4 / config.acceleration);
@@ -67,7 +67,7 @@ TEST(Simulation, FollowsAPathThroughItsWaypointsAndStaysAtTheEnd) {
   const Path path = pathOf(
       "{speed: 0.6, turn_rate: 0.8, tolerance: 0.25, waypoints: [[3, 0], [3, -3], [-2, -3]]}");
   Simulation simulation(box(50.0), {}, Pose2(0.0, 0.0, 2.0), 1);
-  simulation.follow(path);
+  simulation.carrier().follow(path);
   std::vector<double> nearest(3, 1e9);
   double fastest = 0.0;
   for (int i = 0; i < 40 * 200; ++i) {
@@ -84,14 +84,14 @@ TEST(Simulation, FollowsAPathThroughItsWaypointsAndStaysAtTheEnd) {
   EXPECT_NEAR(fastest, 0.6, 1e-6);
   const Pose2 end = simulation.robot().T_map_base();
   EXPECT_LT((end.translation() - path.waypoints_map[2]).norm(), 0.05);
-  simulation.command({1.0, 0.0});
+  simulation.carrier().command({1.0, 0.0});
   run(simulation, 2.0);
   EXPECT_EQ(simulation.robot().T_map_base().coordinates(), end.coordinates());
 }
 
 TEST(Simulation, SetsOffOnceItHasWaited) {
   Simulation simulation(box(50.0), {}, {}, 1);
-  simulation.follow(pathOf("{wait: 1.5, waypoints: [[3, 0]]}"));
+  simulation.carrier().follow(pathOf("{wait: 1.5, waypoints: [[3, 0]]}"));
   run(simulation, 1.5);
   EXPECT_EQ(simulation.robot().T_map_base().x(), 0.0);
   run(simulation, 0.1);
@@ -102,12 +102,12 @@ TEST(Simulation, SweepsComeAtTheirRateOnceTheyEnded) {
   Simulation simulation(box(5.0), {}, {}, 1);
   ScannerProfile profile;
   profile.beams = 31;
-  simulation.addScanner(profile, {});
+  simulation.carrier().addScanner(profile, {});
   profile.rate = 3.0;
-  simulation.addScanner(profile, {});
+  simulation.carrier().addScanner(profile, {});
   std::vector<std::vector<std::int64_t>> stamps(2);
   while (simulation.time() < 2'000'000'000) {
-    for (const FinishedSweep& sweep : simulation.step()) {
+    for (const FinishedSweep& sweep : simulation.step().sweeps) {
       const auto duration = std::llround(profile.sweepDuration() * 1e9);
       EXPECT_LE(sweep.scan.stamp + duration, simulation.time());
       EXPECT_GT(sweep.scan.stamp + duration, simulation.time() - Simulation::kStep);
@@ -127,12 +127,12 @@ TEST(Simulation, SameSeedSameRunWhateverElseIsMounted) {
     Simulation simulation(box(5.0), {}, {}, seed);
     ScannerProfile profile;
     profile.beams = 31;
-    simulation.addScanner(profile, {});
-    if (second) simulation.addScanner(profile, {});
-    simulation.command({0.5, 0.2});
+    simulation.carrier().addScanner(profile, {});
+    if (second) simulation.carrier().addScanner(profile, {});
+    simulation.carrier().command({0.5, 0.2});
     std::vector<double> all;
     while (simulation.time() < 500'000'000) {
-      for (const FinishedSweep& sweep : simulation.step()) {
+      for (const FinishedSweep& sweep : simulation.step().sweeps) {
         if (sweep.scanner == 0)
           all.insert(all.end(), sweep.scan.ranges().begin(), sweep.scan.ranges().end());
       }
@@ -147,11 +147,11 @@ TEST(Simulation, SameSeedSameRunWhateverElseIsMounted) {
 
 TEST(Simulation, ScannersDoNotShareTheirNoise) {
   Simulation simulation(box(5.0), {}, {}, 1);
-  simulation.addScanner({}, {});
-  simulation.addScanner({}, {});
+  simulation.carrier().addScanner({}, {});
+  simulation.carrier().addScanner({}, {});
   std::vector<scan::Scan> scans;
   while (scans.size() < 2) {
-    for (auto& sweep : simulation.step()) scans.push_back(std::move(sweep.scan));
+    for (auto& sweep : simulation.step().sweeps) scans.push_back(std::move(sweep.scan));
   }
   EXPECT_NE(scans[0].ranges(), scans[1].ranges());
 }
@@ -161,7 +161,7 @@ TEST(Path, TourOfTheFloorKeepsClearOfEverythingAndEndsInTheLabWithinAMinute) {
   const world::World floor = world::World::readFile(folder + "worlds/floor.yaml");
   const auto rooms = world::RoomMap::readFile(folder + "rooms/floor.yaml");
   Simulation simulation(world::World{}, {}, Pose2(-2.2, 4.6, 0.2), 1);
-  simulation.follow(Path::readFile(folder + "paths/floor_tour.yaml"));
+  simulation.carrier().follow(Path::readFile(folder + "paths/floor_tour.yaml"));
   std::vector<std::string> visited;
   while (simulation.time() < 58'000'000'000) {
     simulation.step();

@@ -112,5 +112,25 @@ TEST(WheelOdometry, StandingStillReportsNothing) {
   EXPECT_TRUE(wheels.pose().covariance.isZero());
 }
 
+// Mean NEES of the twist against the true mean velocity, scale and biases taken out: 3 expected.
+TEST(WheelOdometry, TwistErrsAsItsCovarianceSays) {
+  OdometryNoise noise;
+  noise.scale_mean = 1.0;
+  noise.scale_sigma = 1e-9;
+  noise.heading_bias_per_metre = noise.steering_bias = 0.0;
+  const Eigen::Vector3d velocity(0.5, 0.0, 0.3);  // m/s, rad/s
+  double sum = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    WheelOdometry wheels(noise, static_cast<std::uint64_t>(run));
+    for (int i = 0; i < 40; ++i) wheels.advance(Pose2::exp(0.005 * velocity));
+    wheels.beginInterval();
+    for (int i = 0; i < 4; ++i) wheels.advance(Pose2::exp(0.005 * velocity));
+    const auto twist = wheels.twist(0.02);
+    const Eigen::Vector3d error = twist.mean - velocity;
+    sum += error.dot(twist.covariance.inverse() * error);
+  }
+  EXPECT_NEAR(sum / kRuns, 3.0, 4.0 * std::sqrt(6.0 / kRuns));
+}
+
 }  // namespace
 }  // namespace sightline::simulation

@@ -147,7 +147,7 @@ TEST_F(OfflineTest, SaysWhatIsWrongWithItsInput) {
     return result.output;
   };
   folder_.write("a.yaml", "scans: [front]\n");
-  EXPECT_THAT(fault(), HasSubstr("no sensor_msgs/LaserScan on /front; there are: /scan"));
+  EXPECT_THAT(fault(), HasSubstr("no scans on /front; there are: /scan"));
   folder_.write("a.yaml", "rooms: {map: none.yaml, initial_pose: [0, 0, 0]}\n");
   EXPECT_THAT(fault(), HasSubstr("none.yaml: no such file"));
   folder_.write("a.yaml", kConfig);

@@ -9,7 +9,7 @@
 
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
-#include "sightline/pipeline/offline_config.h"
+#include "sightline/pipeline/estimators_config.h"
 #include "sightline/pipeline/scan_odometry.h"
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/path.h"
@@ -69,19 +69,21 @@ TEST(ShippedFiles, Paths) {
   expectToLoad("config/paths", simulation::Path::readFile);
 }
 TEST(ShippedFiles, Offline) {
-  expectToLoad("config/offline", pipeline::OfflineConfig::readFile);
+  expectToLoad("config/offline", pipeline::EstimatorsConfig::readFile);
 }
 TEST(ShippedFiles, Carriers) {
   expectToLoad("config/carriers", [](const std::string& file) {
     const auto document = config::Node::readFile(file);
-    document.allowOnly({"odometry"});
+    document.allowOnly({"leans", "floor", "odometry"});
+    pipeline::InputConfig input;
+    EXPECT_NO_THROW(config::read(document, input, config::UnknownKeys::kIgnore));
     pipeline::ScanOdometryConfig config;
     config::read(document.at("odometry"), config);
     EXPECT_NO_THROW(pipeline::ScanOdometry{config});
   });
 }
 TEST(ShippedFiles, Replay) {
-  expectToLoad("config/replay", pipeline::OfflineConfig::readFile);
+  expectToLoad("config/replay", pipeline::EstimatorsConfig::readFile);
 }
 
 TEST(ShippedFiles, Parameters) {

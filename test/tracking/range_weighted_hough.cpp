@@ -76,5 +76,41 @@ TEST_F(TwoWalls, NoBeamsNoPeak) {
   EXPECT_EQ(peaks.turn, 0.0);
 }
 
+TEST_F(TwoWalls, OneWallAlone) {
+  GatedWall north = gatedWall(north_);
+  GatedWall east = gatedWall(east_);
+  seeWalls(north, east);
+  const HoughConfig config;
+  const auto peak = RangeWeightedHough(config).heaviest(north);
+  ASSERT_TRUE(peak);
+  EXPECT_NEAR(peak->turn, -0.05, config.angle_bin);
+  EXPECT_NEAR(peak->distance, 0.08, config.distance_bin);
+  EXPECT_FALSE(RangeWeightedHough(config).heaviest(gatedWall(north_)));
+}
+
+// The finest bins in the widest gates that settings can ask for: the search stays small, the bins
+// get wider, and the walls are still found to a bin.
+TEST_F(TwoWalls, BinsAreBoundedWhateverIsAskedFor) {
+  GateConfig gate;
+  gate.sigmas = 10.0;
+  gate.max_opening = 10.0;
+  gate.max_angle = 1.5;
+  believed_.covariance.diagonal() << 4.0, 4.0, 1.0;
+  std::vector<GatedWall> walls;
+  for (const world::Wall* wall : {&north_, &east_}) {
+    walls.push_back({ValidationGate(gate, *wall, 0.01, believed_, 0.01), {}});
+  }
+  seeWalls(walls[0], walls[1]);
+  HoughConfig finest;
+  finest.distance_bin = 1e-3;
+  finest.angle_bin = 1e-4;
+  const HoughPeaks peaks = RangeWeightedHough(finest).transform(walls);
+  ASSERT_TRUE(peaks.walls[0] && peaks.walls[1]);
+  EXPECT_DOUBLE_EQ(peaks.walls[0]->distance_bin, walls[0].gate.size().opening / 100.0);
+  EXPECT_DOUBLE_EQ(peaks.walls[0]->turn_bin, walls[0].gate.size().angle / 100.0);
+  EXPECT_NEAR(peaks.turn, -0.05, peaks.walls[0]->turn_bin);
+  EXPECT_NEAR(peaks.walls[1]->distance, -0.06, peaks.walls[1]->distance_bin);
+}
+
 }  // namespace
 }  // namespace sightline::tracking

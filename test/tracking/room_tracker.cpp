@@ -1,11 +1,11 @@
 #include "sightline/tracking/room_tracker.h"
-#include "scan_edits.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "scan_edits.h"
 #include "simulated_room.h"
 
 namespace sightline::tracking {
@@ -205,9 +205,20 @@ TEST_F(RoomTrackerTest, InflatesByHand) {
 }
 
 TEST_F(RoomTrackerTest, RoomCanBeSaid) {
-  RoomTracker tracker = trackerAt({2.9, 0.0, 0.0});
+  const Pose2 truth(2.9, 0.0, 0.0);
+  const TrackerConfig config = exactMap();
+  RoomTracker tracker = trackerAt(truth, config);
+  const auto before = step(tracker, truth, {});
+  EXPECT_EQ(before->room, "west");
   EXPECT_TRUE(tracker.setRoom("east"));
   EXPECT_FALSE(tracker.setRoom("cellar"));
+  const auto after = step(tracker, truth, {});
+  EXPECT_EQ(after->room, "east");
+  // Walls of the room that was said come first, in gates as wide as after a threshold.
+  EXPECT_EQ(after->walls[0].room, 1U);
+  const double added = config.gate.sigmas * config.threshold_position_sigma;
+  EXPECT_GT(after->walls[0].gate.opening, added);
+  EXPECT_LT(before->walls[0].gate.opening, 1.2 * added + 0.1);
 }
 
 TEST_F(RoomTrackerTest, RefusesOldScansAndOdometryThatIsNotFinite) {
@@ -222,19 +233,34 @@ TEST_F(RoomTrackerTest, RefusesOldScansAndOdometryThatIsNotFinite) {
   EXPECT_TRUE(tracker.update(rooms_.look(truth, 1), {}, {}));
 }
 
-TEST_F(RoomTrackerTest, PlainMethodTracksToo) {
+TEST_F(RoomTrackerTest, AnotherMethodGoesOnFromThePose) {
+  const Pose2 truth(0.5, 0.4, 0.3);
   TrackerConfig config = exactMap();
+  RoomTracker tracker = trackerAt({0.6, 0.3, 0.35}, config);
+  step(tracker, truth, {});
   config.method = Method::kPlain;
-  Pose2 truth(-1.0, 0.5, 0.0);
+  tracker.configure(config);
+  const auto update = step(tracker, truth, {});
+  ASSERT_TRUE(update);
+  EXPECT_LT(distance(*update, truth), 0.02);
+  EXPECT_FALSE(update->covariance_valid);
+}
+
+TEST_F(RoomTrackerTest, SaysWhyAWallWasRefused) {
+  const Pose2 truth(0.5, 0.4, 0.3);
+  TrackerConfig config = exactMap();
+  config.wall.max_nis = 1.0;
   RoomTracker tracker = trackerAt(truth, config);
-  std::optional<TrackerUpdate> update;
-  for (int i = 0; i < 50; ++i) {
-    truth = truth * Pose2(0.04, 0.0, 0.01);
-    update = step(tracker, truth, truth);
+  int outside = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto update = step(tracker, truth, {});
+    for (const WallUpdate& wall : update->walls) {
+      EXPECT_EQ(wall.fit.has_value(), wall.innovation.has_value());
+      EXPECT_EQ(wall.accepted(), wall.fit && wall.innovation->nis <= 1.0);
+      outside += wall.refusal == WallRefusal::kOutsideGate ? 1 : 0;
+    }
   }
-  EXPECT_LT(distance(*update, truth), 0.03);
-  EXPECT_GE(std::sqrt(update->pose.covariance(0, 0)), config.floor_position_sigma);
-  EXPECT_FALSE(update->covariance_valid) << "a floor is not a covariance to be believed";
+  EXPECT_GT(outside, 5);
 }
 
 TEST_F(RoomTrackerTest, ConfigurationIsChecked) {

@@ -16,13 +16,9 @@ namespace sightline::test {
 class SimulatedRooms {
  public:
   explicit SimulatedRooms(const std::string& rooms, unsigned seed = 1)
-      : map(config::Node::parse(rooms, "rooms")), scanner_(profile(), {}, seed) {
-    for (const geometry::Segment& wall : world::solidWalls(map)) {
-      world::WorldSegment segment;
-      segment.segment = wall;
-      world.add(segment);
-    }
-  }
+      : map(config::Node::parse(rooms, "rooms")),
+        world(world::World::of(map)),
+        scanner_(profile(), {}, seed) {}
 
   scan::Scan look(const geometry::Pose2& T_map_sensor, std::int64_t stamp) {
     return scanner_.sweep(world, stamp, [&](std::int64_t) { return T_map_sensor; });

@@ -15,7 +15,7 @@ namespace {
 using geometry::Pose2;
 
 const char* const kHall = "rooms: {hall: {size: [6.0, 4.0]}}";
-const std::vector<WallIndex> kWalls{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
+const std::vector<world::WallIndex> kWalls{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
 
 TrackerConfig wallsAsDrawn() {
   TrackerConfig config;
@@ -25,25 +25,25 @@ TrackerConfig wallsAsDrawn() {
 }
 
 PoseFilter filterAt(const TrackerConfig& config, const Pose2& pose) {
-  return {config, {pose, Eigen::Vector3d(0.01, 0.01, 0.003).asDiagonal()}};
+  return {config.odometry, {pose, Eigen::Vector3d(0.01, 0.01, 0.003).asDiagonal()}};
 }
 
 TEST(WallFinder, FindsTheWallsFromAVaguePose) {
   const TrackerConfig config = wallsAsDrawn();
   test::SimulatedRooms rooms(kHall);
   const Pose2 truth(0.4, -0.3, 0.6);
-  const Sweep sweep = readSweep(rooms.look(truth, 1), {}, config.odometry);
+  const Sweep sweep = readSweep(rooms.look(truth, 1), {});
   const auto walls =
       WallFinder(config).find(filterAt(config, {0.5, -0.2, 0.65}), rooms.map, kWalls, sweep);
   int found = 0;
-  for (const WallObservation& wall : walls) {
-    if (!wall.accepted) continue;
+  for (const WallFit& wall : walls) {
+    if (!wall.fit) continue;
     ++found;
     const auto expected =
         geometry::transform(truth.inverse(), rooms.map.rooms()[0].walls[wall.wall].segment.line());
-    const Eigen::Vector2d error = geometry::difference(wall.fit, expected);
-    EXPECT_LT(std::abs(error[0]), 5.0 * std::sqrt(wall.fit.covariance(0, 0)));
-    EXPECT_LT(std::abs(error[1]), 5.0 * std::sqrt(wall.fit.covariance(1, 1)));
+    const Eigen::Vector2d error = geometry::difference(wall.fit->line, expected);
+    EXPECT_LT(std::abs(error[0]), 5.0 * std::sqrt(wall.fit->line.covariance(0, 0)));
+    EXPECT_LT(std::abs(error[1]), 5.0 * std::sqrt(wall.fit->line.covariance(1, 1)));
   }
   EXPECT_GE(found, 3);
 }
@@ -55,14 +55,14 @@ TEST(WallFinder, CovarianceOfItsFitsHolds) {
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < 400; ++i) {
-    const Sweep sweep = readSweep(rooms.look(truth, i + 1), {}, config.odometry);
+    const Sweep sweep = readSweep(rooms.look(truth, i + 1), {});
     for (const auto& wall :
          WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, sweep)) {
-      if (!wall.accepted) continue;
+      if (!wall.fit) continue;
       const auto expected = geometry::transform(
           truth.inverse(), rooms.map.rooms()[0].walls[wall.wall].segment.line());
-      sum +=
-          test::normalisedSquare<2>(geometry::difference(wall.fit, expected), wall.fit.covariance);
+      sum += test::normalisedSquare<2>(geometry::difference(wall.fit->line, expected),
+                                       wall.fit->line.covariance);
       ++count;
     }
   }
@@ -77,11 +77,12 @@ TEST(WallFinder, ABeamBelongsToOneWall) {
   const TrackerConfig config = wallsAsDrawn();
   test::SimulatedRooms rooms(kHall);
   const Pose2 truth(2.5, 1.5, 0.8);
-  const Sweep sweep = readSweep(rooms.look(truth, 1), {}, config.odometry);
+  const Sweep sweep = readSweep(rooms.look(truth, 1), {});
   std::vector<int> uses(sweep.points.size(), 0);
   for (const auto& wall :
        WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, sweep)) {
-    for (const std::size_t beam : wall.accepted_beams) ++uses[beam];
+    if (!wall.fit) continue;
+    for (const std::size_t beam : wall.fit->accepted_beams) ++uses[beam];
   }
   EXPECT_LE(*std::max_element(uses.begin(), uses.end()), 1);
   EXPECT_GT(std::accumulate(uses.begin(), uses.end(), 0), 300);
@@ -101,22 +102,21 @@ TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
   const auto fitWith = [&](const Eigen::Vector3d& motion) {
     scan::Scan scan = still;
     scan.setSensorMotion(motion::sweepMotion(*scan.geometry(), Pose2(motion), {}));
-    return WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls,
-                                   readSweep(scan, {}, config.odometry));
+    return WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, readSweep(scan, {}));
   };
   const Eigen::Vector3d motion(0.002, 0.001, 0.001);
   const auto reference = fitWith(motion);
   for (std::size_t i = 0; i < reference.size(); ++i) {
-    if (!reference[i].accepted) continue;
+    if (!reference[i].fit) continue;
     const auto line = [&](const Eigen::Vector3d& m) -> Eigen::Vector2d {
-      const auto fit = fitWith(m)[i].fit;
+      const auto fit = fitWith(m)[i].fit.value().line;
       return {fit.rho, fit.phi};
     };
     const auto numeric = test::numericJacobian<2, 3>(
         line, motion,
         [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) -> Eigen::Vector2d { return a - b; },
         1e-5);
-    EXPECT_LT((reference[i].motion_jacobian - numeric).norm(), 0.05 * numeric.norm())
+    EXPECT_LT((reference[i].fit->motion_jacobian - numeric).norm(), 0.05 * numeric.norm())
         << "wall " << i;
   }
 }
@@ -125,7 +125,8 @@ TEST(WallFinder, NoBeamsNoWalls) {
   const TrackerConfig config = wallsAsDrawn();
   const test::SimulatedRooms rooms(kHall);
   for (const auto& wall : WallFinder(config).find(filterAt(config, {}), rooms.map, kWalls, {})) {
-    EXPECT_FALSE(wall.accepted);
+    EXPECT_FALSE(wall.fit);
+    EXPECT_EQ(wall.refusal, WallRefusal::kTooFewBeams);
     EXPECT_EQ(wall.beams_in_gate, 0U);
   }
 }

@@ -2,14 +2,18 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include <sightline/HeadCommand.h>
 #include "sightline/bridge/input_monitor.h"
 #include "sightline/config/fields.h"
+#include "sightline/driver/head_joint.h"
 #include "sightline/motion/head_command.h"
 #include "sightline/triangulation/ranger.h"
 
@@ -21,12 +25,16 @@ struct ActiveSensorNames {
   std::string scan = "scan";
   std::string joint_states = "joint_states";
   std::string head_command = "head_command";
-  std::string joint = "head_joint";
-  std::string mount_frame = "active_sensor";
-  std::string head_frame = "head";
-  std::string frame = "projection";
+  driver::HeadFrames frames;
 
   void visit(config::FieldVisitor& visitor);
+};
+
+/// Where a head was at a time.
+struct HeadSample {
+  std::int64_t stamp = 0;  ///< [ns]
+  double angle = 0.0;      ///< of its joint [rad]
+  double rate = 0.0;       ///< [rad/s]
 };
 
 /// The topics of an active sensor, be it real or simulated.
@@ -40,14 +48,19 @@ class ActiveSensorTopics {
                      const motion::HeadLimits& limits, diagnostic_updater::Updater& updater,
                      OnHeadCommand on_command);
 
+  /// From now on publishHead() also tells tf where the head is in its mount.
+  void broadcastHead() { broadcaster_.emplace(); }
+
   /// Publishes the range scan and the scan, both with the stamp that it carries [ns].
   void publish(motion::RangeScan& range_scan) const;
-  /// Publishes the head's position [rad] and rate [rad/s] at a time [ns].
-  void publishJoint(std::int64_t stamp, double position, double rate) const;
+  /// Publishes where the head was: a joint state a sample, and one message of all to tf. Stamps
+  /// rise.
+  void publishHead(const std::vector<HeadSample>& samples);
 
   const ActiveSensorNames& names() const { return names_; }
 
  private:
+  void publishJoint(const HeadSample& sample) const;
   void onHeadCommand(const HeadCommand& message);
 
   ActiveSensorNames names_;
@@ -57,6 +70,7 @@ class ActiveSensorTopics {
   ros::Publisher range_scan_publisher_;
   ros::Publisher scan_publisher_;
   ros::Publisher joint_publisher_;
+  std::optional<tf2_ros::TransformBroadcaster> broadcaster_;
   ros::Subscriber command_subscriber_;
 };
 

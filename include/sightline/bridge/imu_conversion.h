@@ -13,7 +13,7 @@ namespace sightline::bridge {
 
 /// What an inertial sensor says of the base on which it sits. Without an orientation (a first
 /// covariance of -1, or a quaternion of zeros, as sensor_msgs/Imu has it) there is no attitude, and
-/// the turn rate is the one about the base's z axis. Throws std::invalid_argument with the reason:
+/// the turn rate is the one about the base's z axis. Throws BadMessage with the reason:
 /// a stamp of zero, numbers that are not finite, no angular velocity.
 pipeline::ImuReading readImu(const sensor_msgs::Imu& message, const Eigen::Quaterniond& R_base_imu);
 

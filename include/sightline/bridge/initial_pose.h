@@ -1,8 +1,7 @@
 #pragma once
 
-#include <stdexcept>
+#include <array>
 #include <string>
-#include <vector>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
@@ -10,16 +9,11 @@
 
 namespace sightline::bridge {
 
-/// A start pose from parameters: x, y, yaw [m, m, rad] and the standard deviations of position and
-/// heading [m, rad].
-geometry::UncertainPose2 startPose(const std::vector<double>& pose,
-                                   const std::vector<double>& sigma);
-
 /// A start pose from rviz or another program. A covariance of zeros is replaced by `sigma`. Throws
-/// std::invalid_argument with the reason: another frame than the map's, numbers that are not
+/// BadMessage with the reason: another frame than the map's, numbers that are not
 /// finite, an orientation that is no rotation, a covariance that is none.
 geometry::UncertainPose2 readInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message,
                                          const std::string& map_frame,
-                                         const std::vector<double>& sigma);
+                                         const std::array<double, 2>& sigma);
 
 }  // namespace sightline::bridge

@@ -4,6 +4,8 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
+#include "sightline/bridge/bad_message.h"
+
 namespace sightline::bridge {
 
 /// What became of the messages of one input: counts what was used and what was dropped with the
@@ -13,13 +15,20 @@ class InputMonitor {
   /// Registers with the updater, which has to live as long.
   InputMonitor(std::string topic, diagnostic_updater::Updater& updater);
 
+  /// Does something with a message that may throw BadMessage, and counts it either way.
+  template <class Use>
+  void use(const Use& use_message) {
+    try {
+      use_message();
+      accept();
+    } catch (const BadMessage& fault) {
+      drop(fault.what());
+    }
+  }
   void accept() { ++accepted_; }
   void drop(const std::string& reason);
   /// Drops a message that nobody is to blame for: while a graph starts, some come too early.
   void skip(const std::string& reason);
-
-  std::size_t accepted() const { return accepted_; }
-  std::size_t dropped() const { return dropped_; }
 
  private:
   void count(const std::string& reason);

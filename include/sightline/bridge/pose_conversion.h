@@ -1,9 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+
+#include <Eigen/Geometry>
 
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <boost/array.hpp>
 
 #include "sightline/geometry/pose2.h"
@@ -18,17 +22,25 @@ geometry_msgs::Pose toPose(const geometry::Pose2& pose);
 geometry_msgs::Transform toTransform(const geometry::Pose2& pose);
 geometry_msgs::Quaternion toQuaternion(double yaw);
 
+/// What tf is told: where the frame `child` is in `parent` at a time [ns].
+geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
+                                                   const std::string& child, std::int64_t stamp,
+                                                   const geometry::Pose2& T_parent_child);
+geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
+                                                   const std::string& child, std::int64_t stamp,
+                                                   const Eigen::Isometry3d& T_parent_child);
+
 /// Covariance of (x, y, yaw) in the 6x6 of ROS, row-major at [0] [7] [35], cross terms filled, the
 /// rest zero.
 boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance);
 Eigen::Matrix3d toCovariance3(const boost::array<double, 36>& covariance);
 
-/// How a planar sensor sits on its carrier.
-struct Mounting {
-  geometry::Pose2 T_base_sensor;
-  bool upside_down = false;  ///< scans have to be read with ScanReader::setUpsideDown
-};
-/// From the transform that takes points of the sensor's frame to the base frame.
-Mounting mountingOf(const geometry_msgs::Transform& T_base_sensor);
+Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform);
+geometry_msgs::TransformStamped toTransformMessage(std::int64_t stamp, const std::string& parent,
+                                                   const std::string& child,
+                                                   const geometry::Pose2& T_parent_child);
+
+/// A frame's name without the leading slash that tf of old wrote.
+std::string withoutSlash(const std::string& frame);
 
 }  // namespace sightline::bridge

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "sightline/dead_reckoning/search_window.h"
 #include "sightline/dead_reckoning/submap.h"
 #include "sightline/dead_reckoning/surface_points.h"
 #include "sightline/geometry/pose2.h"
@@ -23,10 +24,10 @@ class Raster {
 
   void draw(const std::vector<Surfel>& surfels, const Eigen::Vector2d& centre_odom);
   double cell() const { return cell_; }
-  /// Of the cell of a point, if that is so many cells inside the border.
+  /// Index of the cell of a point, if that is so many cells inside the border.
   std::optional<std::int32_t> indexOf(const Eigen::Vector2d& point_odom, int margin) const;
-  /// Of what the cells count, moved by (dx, dy) cells: no further than the margin they were found
-  /// with.
+  /// Sum of what the cells count, moved by (dx, dy) cells: no further than the margin they were
+  /// found with.
   long sum(const std::vector<std::int32_t>& cells, int dx, int dy) const;
 
  private:
@@ -34,18 +35,28 @@ class Raster {
   void paint(const Eigen::Vector2i& centre);
 
   double cell_;
-  int half_;  // of the smear, in cells
+  int half_;  // half width of the smear [cells]
   std::vector<std::uint8_t> stamp_;
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
   int side_;
   std::vector<std::uint8_t> cells_;
 };
 
-/// Poses of the base within these distances of a centre.
-struct SearchWindow {
-  geometry::Pose2 centre;  ///< T_odom_base
-  double position = 0.0;   ///< half side of the square, along the axes of odom [m]
-  double heading = 0.0;    ///< half width [rad]
+/// The surfaces of a submap about a place, drawn coarse and fine.
+class SearchRasters {
+ public:
+  SearchRasters(const Submap& submap, const Eigen::Vector2d& centre_odom);
+
+  /// Tells whether they still show the submap, about a place near enough to this one.
+  bool show(const Submap& submap, const Eigen::Vector2d& centre_odom) const;
+  const Raster& coarse() const { return coarse_; }
+  const Raster& fine() const { return fine_; }
+
+ private:
+  Raster coarse_;
+  Raster fine_;
+  std::uint64_t drawn_;  // version of the submap
+  Eigen::Vector2d centre_odom_;
 };
 
 struct SearchCandidate {
@@ -53,21 +64,19 @@ struct SearchCandidate {
   double score = 0.0;  ///< [0, 1], share of the points that lie on the reference
 };
 
-/// Looks for a scan everywhere in a window: saarinen alg. 4, coarse to fine, with the distance to
-/// the nearest neighbour looked up in rasters of the reference.
-class CorrelativeSearch {
- public:
-  /// The best poses of the window that are not neighbours of a better one, best first.
-  std::vector<SearchCandidate> search(const std::vector<SurfacePoint>& points, const Submap& submap,
-                                      const SearchWindow& window, std::size_t most);
-
- private:
-  void draw(const Submap& submap, const Eigen::Vector2d& centre_odom);
-
-  Raster coarse_{0.4, 0.6};
-  Raster fine_{0.1, 0.25};
-  std::uint64_t drawn_ = 0;  // version of the submap
-  Eigen::Vector2d centre_ = Eigen::Vector2d::Zero();
+struct SearchResult {
+  std::vector<SearchCandidate> candidates;  ///< best first
+  std::size_t evaluations = 0;              ///< poses that were scored
 };
+
+/// Looks for a scan everywhere in a window: saarinen alg. 4, coarse to fine, with the distance to
+/// the nearest neighbour looked up in rasters of the reference. Finds the best poses of the window
+/// that are not neighbours of a better one. Of a window wider than 12 m to either side the rest is
+/// not searched.
+///
+/// @param rasters  drawn about the window's centre
+/// @param most     candidates
+SearchResult searchRasters(const std::vector<SurfacePoint>& points, const SearchRasters& rasters,
+                           const SearchWindow& window, std::size_t most);
 
 }  // namespace sightline::dead_reckoning

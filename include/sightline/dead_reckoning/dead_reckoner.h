@@ -8,8 +8,13 @@
 #include <Eigen/Core>
 
 #include "sightline/dead_reckoning/dead_reckoner_config.h"
+#include "sightline/dead_reckoning/error_state.h"
 #include "sightline/dead_reckoning/match_state.h"
+#include "sightline/dead_reckoning/matcher.h"
+#include "sightline/dead_reckoning/motion_model.h"
+#include "sightline/dead_reckoning/surface_points.h"
 #include "sightline/geometry/pose2.h"
+#include "sightline/geometry/twist2.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::dead_reckoning {
@@ -17,48 +22,64 @@ namespace sightline::dead_reckoning {
 /// What something else says of the base's motion since the scan before: wheels, a gyroscope.
 struct MotionPrior {
   geometry::Pose2 T_before_now;
-  /// Of its coordinates (x, y, θ) [m², m rad, rad²]. Large entries leave to the scans what it does
-  /// not know: a gyroscope says nothing of x and y.
+  /// Covariance of its coordinates (x, y, θ) [m², m rad, rad²]. Large entries leave to the scans
+  /// what it does not know: a gyroscope says nothing of x and y.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
 /// What one scan did to the pose.
 struct DeadReckoningUpdate {
-  std::int64_t stamp = 0;         ///< of the scan, ns
-  geometry::UncertainPose2 pose;  ///< T_odom_base at the stamp; grows from zero at the first scan
-  geometry::UncertainPose2 step;  ///< T_before_now, from the scan before
-  Eigen::Vector3d twist = Eigen::Vector3d::Zero();  ///< in the base, at the stamp [m/s, m/s, rad/s]
-  Eigen::Matrix3d twist_covariance = Eigen::Matrix3d::Zero();
+  std::int64_t stamp = 0;           ///< of the scan, ns
+  geometry::UncertainPose2 pose;    ///< T_odom_base at the stamp; grows from zero at the first scan
+  geometry::UncertainPose2 step;    ///< T_before_now, from the scan before
+  geometry::UncertainTwist2 twist;  ///< in the base, at the stamp
   MatchState state = MatchState::kInitial;
   std::size_t beams = 0;  ///< that had a valid return
   double inliers = 0.0;   ///< share of those that found their counterpart in the reference, [0, 1]
-  bool searched = false;  ///< whether the local match was unsure and the window was searched
 
   bool isFlagged() const { return state != MatchState::kMatched && state != MatchState::kInitial; }
+};
+
+/// What a scan would do to the pose: a value, to be committed or thrown away.
+struct Match {
+  std::int64_t stamp = 0;       ///< of the scan, ns
+  double elapsed = 0.0;         ///< since the scan before [s]; 0 where there is none
+  bool is_first = true;         ///< no scan before it
+  bool begins_anew = true;      ///< the reference is not to be used any more
+  StepPrediction prediction;    ///< of the step from the scan before
+  SurfaceScan surfaces;         ///< corrected by the motion that was found
+  MatchOutcome outcome;         ///< a default one where there is no reference
+  geometry::Pose2 step;         ///< T_before_now; the prediction's where the match failed
+  geometry::Pose2 T_odom_base;  ///< at the stamp, once committed
+  /// Covariance of what the noise of the sensor's motion makes of the pose, or of the surfaces
+  /// where the match failed.
+  Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
+  std::uint64_t revision = 0;  ///< state of the reckoner that it was made with
 };
 
 /// Follows a carrier by its scans alone, or with a prior (saarinen section 4.3.4).
 ///
 /// The frame odom is the base's at the first scan. The prediction is the prior, or constant
 /// velocity as uncertain as the carrier's accelerations make it. A sweep whose beams have time
-/// offsets and no sensor_motion is corrected by the motion that is found. Whatever comes in,
-/// estimates stay finite; not thread-safe.
+/// offsets and no sensor_motion is corrected by the motion that is found. The noise of a
+/// sensor_motion is in the covariances. Whatever comes in, estimates stay finite; not thread-safe.
 class DeadReckoner {
  public:
   /// Throws config::Error if the configuration is out of range.
   explicit DeadReckoner(const DeadReckonerConfig& config);
-  ~DeadReckoner();
-  /// A copy is a try: what it does with a scan can be kept or thrown away.
-  DeadReckoner(const DeadReckoner&);
-  DeadReckoner(DeadReckoner&&) noexcept;
-  DeadReckoner& operator=(DeadReckoner&&) noexcept;
 
-  /// Takes one scan. Nothing for one that is not newer than the one before. The mounting has to be
-  /// level: of a sensor upside down the angles are mirrored first, which makes them fall. Throws
-  /// scan::InvalidScan where the scan's vectors do not have one entry a beam.
+  /// Takes one scan: match and commit in a row.
   std::optional<DeadReckoningUpdate> update(const scan::Scan& scan,
                                             const geometry::Pose2& T_base_sensor,
                                             const std::optional<MotionPrior>& prior = {});
+
+  /// What a scan would do. Nothing for one that is not newer than the one before. The mounting has
+  /// to be level: of a sensor upside down the angles are mirrored first, which makes them fall.
+  std::optional<Match> match(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
+                             const std::optional<MotionPrior>& prior = {}) const;
+  /// Takes a match made since the last commit, reset or restart of the clock. Throws
+  /// std::invalid_argument for an older one.
+  DeadReckoningUpdate commit(const Match& match);
 
   /// Forgets reference and motion. The next scan is at `T_odom_base`, of which it is certain.
   void reset(const geometry::Pose2& T_odom_base = {});
@@ -66,8 +87,26 @@ class DeadReckoner {
   void restartClock();
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  StepPrediction predict(const std::optional<MotionPrior>& prior, double elapsed) const;
+  void locate(const scan::Scan& scan, const geometry::Pose2& T_base_sensor, Match& match) const;
+  void correctSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
+                    const geometry::UncertainPose2& predicted, const SearchWindow& window,
+                    Match& match) const;
+  Eigen::Vector3d accelerationTo(const Eigen::Vector3d& twist, double elapsed) const;
+  bool isPossible(const geometry::Pose2& T_odom_base, double elapsed) const;
+  geometry::UncertainPose2 advance(const Match& match);
+  void learn(const Match& match);
+
+  DeadReckonerConfig config_;
+  std::unique_ptr<Matcher> matcher_;
+  std::optional<std::int64_t> stamp_;
+  geometry::Pose2 T_odom_base_;
+  ErrorState errors_;
+  Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();
+  bool moving_ = false;  // whether the twist is known
+  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();
+  double bridged_ = 0.0;        // time since the last match [s]
+  std::uint64_t revision_ = 0;  // another after each change
 };
 
 }  // namespace sightline::dead_reckoning

@@ -25,8 +25,8 @@ struct CarrierConfig {
 /// The reference of the default method.
 struct SubmapConfig {
   int keyframes = 20;           ///< at most
-  double spacing = 0.4;         ///< of keyframes, way between them [m]
-  double turn_spacing = 0.35;   ///< of keyframes, turn between them [rad]
+  double spacing = 0.4;         ///< distance between two keyframes [m]
+  double turn_spacing = 0.35;   ///< rotation between two keyframes [rad]
   double surface_sigma = 0.01;  ///< roughness of surfaces and errors of the reference [m]
   double max_cost = 0.25;  ///< share of a scan left unexplained, above which a match has failed
   double max_contradictions = 0.2;  ///< share of a scan that contradicts, above which it has failed
@@ -36,7 +36,7 @@ struct SubmapConfig {
 
 struct PoseSpaceConfig {
   double step = 0.06;             ///< finest, of position [m]
-  double angle_step = 0.0104720;  ///< of heading, 0.6° [rad]
+  double angle_step = 0.0104720;  ///< finest, of heading: 0.6° [rad]
   double threshold = 0.06;        ///< th of eq. 4.5 [m]
   double hold_share = 0.55;       ///< 200 of 361 beams
 
@@ -44,10 +44,10 @@ struct PoseSpaceConfig {
 };
 
 struct HistogramConfig {
-  double bin = 0.0087266;                      ///< of direction, 0.5° [rad]
+  double bin = 0.0087266;                      ///< width of a bin of directions: 0.5° [rad]
   std::vector<double> steps{5.0, 10.0, 15.0};  ///< N of alg. 6 as a turn of the beam [deg]
   int candidates = 4;                          ///< headings tried
-  double resolution = 0.02;                    ///< of the translation [m]
+  double resolution = 0.02;                    ///< finest step of the translation [m]
   double max_distance = 0.5;                   ///< D of eq. 4.8 [m]
 
   void visit(config::FieldVisitor& visitor);

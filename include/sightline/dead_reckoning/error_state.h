@@ -9,10 +9,12 @@ namespace sightline::dead_reckoning {
 
 /// What a match says of a pose.
 struct PoseMeasurement {
-  /// Of the coordinates (x, y, θ); may be singular, zero where there was no match.
+  /// Information on the coordinates (x, y, θ); may be singular, zero where there was no match.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   /// Covariance of what is uncertain besides.
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d extra_covariance = Eigen::Matrix3d::Zero();
+  /// Covariance of what the noise of the sensor's motion within the sweep makes of the pose.
+  Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
   /// Share of the variance that is the same for the pose before, [0, 1].
   double common = 0.0;
 };
@@ -26,7 +28,7 @@ struct PoseMeasurement {
 class ErrorState {
  public:
   /// Certain of pose and twist.
-  void reset() { covariance_.setZero(); }
+  void reset();
 
   /// Against the reference, after a step from T_odom_base.
   Eigen::Matrix3d predicted(const geometry::Pose2& T_odom_base, const StepPrediction& step) const;
@@ -38,8 +40,14 @@ class ErrorState {
                           const geometry::Pose2& step, double elapsed,
                           const PoseMeasurement& measurement);
 
+  /// Says what the noise of the sensor's motion did to a scan that nothing was matched with: its
+  /// surfaces are displaced as if they had been seen from a pose with this error.
+  void displace(const Eigen::Matrix3d& motion_covariance);
+
   /// New surfaces are as far off as the pose they were seen from: this share of the reference's
-  /// view takes over the error of the pose, which cannot be matched away any more.
+  /// view takes over the error of the pose, which cannot be matched away any more. The error that
+  /// the motion within their own sweep made stays the pose's: it displaced the surfaces the other
+  /// way, and the reference shows them where they are.
   void handOver(double share);
 
   Eigen::Matrix3d pose() const { return covariance_.block<3, 3>(0, 0); }
@@ -48,7 +56,15 @@ class ErrorState {
 
  private:
   using Joint = Eigen::Matrix<double, 9, 9>;
+  using Columns = Eigen::Matrix<double, 9, 3>;
+
+  Joint apartFrom(double common) const;
+
   Joint covariance_ = Joint::Zero();
+  // Covariance of the error that the motion within the last sweep made of its pose, and what it has
+  // in common with the errors above.
+  Eigen::Matrix3d motion_ = Eigen::Matrix3d::Zero();
+  Columns with_motion_ = Columns::Zero();
 };
 
 }  // namespace sightline::dead_reckoning

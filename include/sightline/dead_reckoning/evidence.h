@@ -19,21 +19,21 @@ struct Evidence {
 /// scan looks through.
 ///
 /// @param profile  of the same sweep
-Evidence weigh(const LineMatch& match, const Sweep& sweep, const RangeProfile& profile,
+Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeProfile& profile,
                const Submap& submap);
 
-/// How the residuals of a match are spread.
-struct ResidualSpread {
+/// What the residuals of a match say of its covariance.
+struct ResidualStatistics {
   double variance = 1.0;     ///< in units of what was expected
-  double correlation = 0.0;  ///< of neighbours, [0, 1): the reference's errors are theirs together
+  double correlation = 0.0;  ///< of neighbours, [0, 1): they share errors of the reference
 
-  /// By how much the covariance of the match is larger than its information says: n neighbours
+  /// Factor by which the covariance of the match is larger than its information says: n neighbours
   /// count as n (1 − r)/(1 + r) at a correlation r.
   double factor() const { return variance * (1.0 + correlation) / (1.0 - correlation); }
   /// The share of that which is due to the reference.
   double common() const { return 2.0 * correlation / (1.0 + correlation); }
 };
 
-ResidualSpread spreadOf(const LineMatch& match);
+ResidualStatistics residualStatistics(const LineMatch& match);
 
 }  // namespace sightline::dead_reckoning

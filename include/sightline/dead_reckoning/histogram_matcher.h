@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "sightline/dead_reckoning/angle_histogram.h"
 #include "sightline/dead_reckoning/dead_reckoner_config.h"
 #include "sightline/dead_reckoning/matcher.h"
+#include "sightline/dead_reckoning/search_window.h"
 #include "sightline/dead_reckoning/surface_points.h"
 #include "sightline/dead_reckoning/translation_search.h"
 #include "sightline/geometry/pose2.h"
@@ -21,22 +21,19 @@ class HistogramMatcher : public Matcher {
  public:
   explicit HistogramMatcher(const HistogramConfig& config) : config_(config) {}
 
-  std::unique_ptr<Matcher> clone() const override {
-    return std::make_unique<HistogramMatcher>(*this);
-  }
   bool hasReference() const override { return T_odom_reference_.has_value(); }
-  MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
-                     const SearchWindow& window) override;
-  double learn(const Sweep& sweep, const geometry::Pose2& T_odom_base, MatchState state) override;
+  MatchOutcome match(const SurfaceScan& surfaces, const geometry::UncertainPose2& prior,
+                     const SearchWindow& window) const override;
+  double learn(const SurfaceScan& surfaces, const geometry::Pose2& T_odom_base,
+               const MatchOutcome& outcome) override;
   void clear() override { T_odom_reference_.reset(); }
 
  private:
-  std::vector<HeadingCandidate> headings(const Sweep& sweep, double centre,
+  std::vector<HeadingCandidate> headings(const SurfaceScan& surfaces, double centre,
                                          double half_width) const;
-  std::vector<std::vector<double>> histograms(const Sweep& sweep) const;
+  std::vector<std::vector<double>> histograms(const SurfaceScan& surfaces) const;
 
   HistogramConfig config_;
-  bool hold_ = false;
   std::optional<geometry::Pose2> T_odom_reference_;
   std::vector<std::vector<double>> reference_histograms_;  // by step size
   DistanceField field_;

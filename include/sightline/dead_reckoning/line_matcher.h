@@ -24,11 +24,15 @@ LineResidual lineResidual(const Eigen::Vector2d& translation_odom, const Eigen::
 /// A pose of the base at which a scan meets the reference.
 struct LineMatch {
   geometry::Pose2 T_odom_base;
-  /// Of the coordinates (x, y, θ), by the beams alone and as if their errors were independent.
+  /// Information on the coordinates (x, y, θ), by the beams alone and as if their errors were
+  /// independent.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  /// Of each point from its counterpart's line, in standard deviations; NaN without a counterpart.
+  /// Distance of each point from its counterpart's line, in standard deviations; NaN without a
+  /// counterpart.
   std::vector<double> residuals;
   std::vector<double> distances;  ///< the same in metres
+  /// Covariance of what the noise of the sensor's motion adds to the gradient (MotionGradient).
+  Eigen::Matrix3d motion_gradient = Eigen::Matrix3d::Zero();
 };
 
 /// Point-to-line matching by iteratively reweighted least squares: the maximum a posteriori pose
@@ -39,31 +43,39 @@ class LineMatcher {
   explicit LineMatcher(double surface_sigma) : surface_variance_(surface_sigma * surface_sigma) {}
 
   /// @param start_scale  scale of the loss at first; it falls to that of the noise [m]
-  LineMatch match(const std::vector<SurfacePoint>& points, const Submap& submap,
-                  const geometry::Pose2& start, const geometry::UncertainPose2& prior,
-                  double start_scale);
+  LineMatch match(const SurfaceScan& surfaces, const Submap& submap, const geometry::Pose2& start,
+                  const geometry::UncertainPose2& prior, double start_scale) const;
 
  private:
   struct Pair {
     const SurfacePoint* point;
     const Surfel* surfel;
   };
+  using Pairs = std::vector<Pair>;
   struct NormalEquations {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d spurious = Eigen::Matrix3d::Zero();  // what errors of normals add to it
+  };
+  /// What of the information is real, and how a gradient becomes one of that information.
+  struct RealPart {
+    Eigen::Matrix3d information;
+    Eigen::Matrix3d of_gradient;
   };
   double finalScale() const;
   void findPairs(const std::vector<SurfacePoint>& points, const Submap& submap,
-                 const geometry::Pose2& pose, double scale);
+                 const geometry::Pose2& pose, double scale, Pairs& pairs) const;
   double descend(const geometry::Pose2& prior, const Eigen::Matrix3d& prior_information,
-                 double scale, LineMatch& match) const;
-  NormalEquations linearize(const geometry::Pose2& pose, double scale) const;
-  static NormalEquations withoutSpurious(const NormalEquations& sum,
-                                         const Eigen::Matrix3d& spurious);
-  void listResiduals(const std::vector<SurfacePoint>& points, LineMatch& match) const;
+                 double scale, const Pairs& pairs, LineMatch& match) const;
+  double weightOf(const Pair& pair, const LineResidual& residual, double scale) const;
+  NormalEquations linearize(const geometry::Pose2& pose, double scale, const Pairs& pairs) const;
+  static RealPart realPart(const NormalEquations& sum);
+  void listResiduals(const std::vector<SurfacePoint>& points, const Pairs& pairs,
+                     LineMatch& match) const;
+  Eigen::Matrix3d motionGradient(const SurfaceScan& surfaces, const geometry::Pose2& pose,
+                                 const Pairs& pairs) const;
 
   double surface_variance_;
-  std::vector<Pair> pairs_;
 };
 
 }  // namespace sightline::dead_reckoning

@@ -1,13 +1,27 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
-#include "sightline/dead_reckoning/correlative_search.h"
+#include <Eigen/Core>
+
 #include "sightline/dead_reckoning/match_state.h"
+#include "sightline/dead_reckoning/search_window.h"
 #include "sightline/dead_reckoning/surface_points.h"
 #include "sightline/geometry/pose2.h"
 
 namespace sightline::dead_reckoning {
+
+class SearchRasters;
+
+/// What a matcher has to know of a match again when it learns the scan.
+struct ReferenceTrace {
+  bool is_held = false;   ///< the reference scan explains the scan well enough to be kept
+  bool is_fresh = false;  ///< the second reference explains the scan, the first does not
+  /// Rasters that the match drew, null where it needed none.
+  std::shared_ptr<const SearchRasters> trusted_rasters;
+  std::shared_ptr<const SearchRasters> fresh_rasters;
+};
 
 /// What a matcher found of one scan.
 struct MatchOutcome {
@@ -18,10 +32,14 @@ struct MatchOutcome {
   /// scan to the next.
   double common = 0.0;
   /// Covariance of what several candidates leave open, on top of all else.
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d extra_covariance = Eigen::Matrix3d::Zero();
+  /// Covariance of what the noise of the sensor's motion adds to the gradient of the least squares
+  /// that `information` belongs to (MotionGradient).
+  Eigen::Matrix3d motion_gradient = Eigen::Matrix3d::Zero();
   MatchState state = MatchState::kFailed;
-  double inliers = 0.0;  ///< share of the points, [0, 1]
-  bool searched = false;
+  double inliers = 0.0;         ///< share of the points, [0, 1]
+  std::size_t evaluations = 0;  ///< poses that were compared; bounded whatever the settings
+  ReferenceTrace reference;
 };
 
 /// A way to compare a scan with a reference of its own. Poses are T_odom_base; covariances are of
@@ -29,16 +47,16 @@ struct MatchOutcome {
 class Matcher {
  public:
   virtual ~Matcher() = default;
-  virtual std::unique_ptr<Matcher> clone() const = 0;
   virtual bool hasReference() const = 0;
   /// Needs a reference.
   /// @param prior  what is known of the pose besides the scan
-  virtual MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
-                             const SearchWindow& window) = 0;
-  /// Takes the scan last matched, at its pose, into the reference, where it is time to. Returns
-  /// the share of the reference in view that is new, [0, 1].
-  virtual double learn(const Sweep& sweep, const geometry::Pose2& T_odom_base,
-                       MatchState state) = 0;
+  virtual MatchOutcome match(const SurfaceScan& surfaces, const geometry::UncertainPose2& prior,
+                             const SearchWindow& window) const = 0;
+  /// Takes the scan into the reference, at its pose, where it is time to. Returns the share of the
+  /// reference in view that is new, [0, 1].
+  /// @param outcome  of the match of this scan; a default one where there was no reference
+  virtual double learn(const SurfaceScan& surfaces, const geometry::Pose2& T_odom_base,
+                       const MatchOutcome& outcome) = 0;
   virtual void clear() = 0;
 };
 

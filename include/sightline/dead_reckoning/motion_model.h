@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "sightline/dead_reckoning/correlative_search.h"
 #include "sightline/dead_reckoning/dead_reckoner_config.h"
+#include "sightline/dead_reckoning/search_window.h"
 #include "sightline/geometry/pose2.h"
 
 namespace sightline::dead_reckoning {
@@ -11,7 +11,7 @@ namespace sightline::dead_reckoning {
 /// A step to come, in the base before it.
 struct StepPrediction {
   geometry::Pose2 step;
-  /// Of its coordinates (x, y, θ), were the twist that it was predicted from exact.
+  /// Covariance of its coordinates (x, y, θ), were the twist that it was predicted from exact.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// ∂(coordinates)/∂(twist); zero where the prediction is not from a twist.
   Eigen::Matrix3d by_twist = Eigen::Matrix3d::Zero();

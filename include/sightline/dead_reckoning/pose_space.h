@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "sightline/dead_reckoning/correlative_search.h"
 #include "sightline/dead_reckoning/dead_reckoner_config.h"
 #include "sightline/dead_reckoning/matcher.h"
+#include "sightline/dead_reckoning/search_window.h"
 #include "sightline/dead_reckoning/surface_points.h"
 #include "sightline/fitting/rigid_alignment.h"
 #include "sightline/geometry/pose2.h"
@@ -24,7 +23,7 @@ class SortedPoints {
 
   /// The nearest neighbour (saarinen eq. 4.6), null where it is further than `reach` [m].
   const Eigen::Vector2d* nearest(const Eigen::Vector2d& point, double reach) const;
-  /// Whether there is any point within reach: eq. 4.5 needs no more.
+  /// Tells whether there is any point within reach: eq. 4.5 needs no more.
   bool hasNear(const Eigen::Vector2d& point, double reach) const;
 
  private:
@@ -35,11 +34,13 @@ class SortedPoints {
 struct Correlation {
   geometry::Pose2 T_reference_base;
   std::size_t count = 0;
+  std::size_t evaluations = 0;  ///< poses that were tried
 };
 
 /// Correlation in pose space (saarinen alg. 4): every pose of an even distribution is tried; first
 /// coarse in position, then finer about the best. Headings keep their step, as a coarse one moves
-/// distant points too far.
+/// distant points too far. A window that holds more poses than can be tried is searched with steps
+/// as much coarser as it takes, in position first.
 Correlation correlatePoses(const std::vector<SurfacePoint>& points, const SortedPoints& reference,
                            const SearchWindow& window, const PoseSpaceConfig& config);
 
@@ -49,28 +50,20 @@ class PoseSpaceMatcher : public Matcher {
  public:
   explicit PoseSpaceMatcher(const PoseSpaceConfig& config) : config_(config) {}
 
-  std::unique_ptr<Matcher> clone() const override {
-    return std::make_unique<PoseSpaceMatcher>(*this);
-  }
   bool hasReference() const override { return T_odom_reference_.has_value(); }
-  MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
-                     const SearchWindow& window) override;
-  double learn(const Sweep& sweep, const geometry::Pose2& T_odom_base, MatchState state) override;
+  MatchOutcome match(const SurfaceScan& surfaces, const geometry::UncertainPose2& prior,
+                     const SearchWindow& window) const override;
+  double learn(const SurfaceScan& surfaces, const geometry::Pose2& T_odom_base,
+               const MatchOutcome& outcome) override;
   void clear() override { T_odom_reference_.reset(); }
 
  private:
-  std::vector<fitting::PointPair> pairsAt(const Sweep& sweep,
+  std::vector<fitting::PointPair> pairsAt(const SurfaceScan& surfaces,
                                           const geometry::Pose2& T_reference_base) const;
 
   PoseSpaceConfig config_;
-  bool hold_ = false;
   std::optional<geometry::Pose2> T_odom_reference_;
   SortedPoints reference_;
 };
-
-/// Information on the coordinates of a pose that the points of a sweep give, each across its
-/// surface, with `sigma` [m] of error each.
-Eigen::Matrix3d surfaceInformation(const Sweep& sweep, const geometry::Pose2& T_odom_base,
-                                   double sigma);
 
 }  // namespace sightline::dead_reckoning

@@ -23,7 +23,7 @@ enum class Sight : std::uint8_t {
 class RangeProfile {
  public:
   RangeProfile();
-  explicit RangeProfile(const Sweep& sweep);
+  explicit RangeProfile(const SurfaceScan& surfaces);
 
   Sight at(const Eigen::Vector2d& point_base) const;
 

@@ -37,7 +37,7 @@ class Submap {
   bool empty() const { return keyframes_.empty(); }
   /// Adds a scan at its pose; beyond `most` the oldest are dropped. Returns the share of its
   /// surfels that were new.
-  double add(const geometry::Pose2& T_odom_base, const Sweep& sweep, std::size_t most);
+  double add(const geometry::Pose2& T_odom_base, const SurfaceScan& surfaces, std::size_t most);
 
   /// The surfel nearest to a point [m, odom] among those that face as `normal` does (any, where
   /// that is zero), within `reach` [m] of it; null where there is none.
@@ -46,7 +46,7 @@ class Submap {
 
   /// Oldest first.
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
-  /// What a place [m, odom] is to the newest keyframe that knows.
+  /// What a place [m, odom] is to the newest keyframe that knows, of the newest 50.
   Sight sightOf(const Eigen::Vector2d& point) const;
   const std::vector<Surfel>& surfels() const { return surfels_; }
   /// Another number after each change.
@@ -57,7 +57,7 @@ class Submap {
     Eigen::Vector2d point;
     Eigen::Vector2d normal;
     double facing;  // least cosine between the normals
-    double square;  // of the distance, so far
+    double square;  // of the least distance so far [m²]
     const Surfel* surfel;
   };
   void rebuild();

@@ -1,12 +1,14 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
+#include "sightline/dead_reckoning/correlative_search.h"
 #include "sightline/dead_reckoning/dead_reckoner_config.h"
 #include "sightline/dead_reckoning/evidence.h"
 #include "sightline/dead_reckoning/line_matcher.h"
 #include "sightline/dead_reckoning/matcher.h"
+#include "sightline/dead_reckoning/range_profile.h"
 #include "sightline/dead_reckoning/submap.h"
 
 namespace sightline::dead_reckoning {
@@ -22,14 +24,15 @@ class SubmapMatcher : public Matcher {
   explicit SubmapMatcher(const SubmapConfig& config)
       : config_(config), lines_(config.surface_sigma) {}
 
-  std::unique_ptr<Matcher> clone() const override { return std::make_unique<SubmapMatcher>(*this); }
   bool hasReference() const override { return !trusted_.submap.empty(); }
-  MatchOutcome match(const Sweep& sweep, const geometry::UncertainPose2& prior,
-                     const SearchWindow& window) override;
-  double learn(const Sweep& sweep, const geometry::Pose2& T_odom_base, MatchState state) override;
+  MatchOutcome match(const SurfaceScan& surfaces, const geometry::UncertainPose2& prior,
+                     const SearchWindow& window) const override;
+  double learn(const SurfaceScan& surfaces, const geometry::Pose2& T_odom_base,
+               const MatchOutcome& outcome) override;
   void clear() override;
 
  private:
+  using Rasters = std::shared_ptr<const SearchRasters>;
   struct Hypothesis {
     LineMatch match;
     Evidence evidence;
@@ -37,28 +40,38 @@ class SubmapMatcher : public Matcher {
   /// A reference, and where it was last added to.
   struct Reference {
     Submap submap;
-    CorrelativeSearch search;
+    Rasters rasters;
     geometry::Pose2 keyframe;
   };
+  /// A scan and what is known of its pose.
+  struct Task {
+    const SurfaceScan& surfaces;
+    RangeProfile profile;
+    geometry::UncertainPose2 prior;
+    SearchWindow window;
+  };
+  struct Attempt {
+    MatchOutcome outcome;
+    Rasters rasters;
+  };
 
-  MatchOutcome matchWith(Reference& reference, const Sweep& sweep,
-                         const geometry::UncertainPose2& prior, const SearchWindow& window);
-  std::vector<Hypothesis> search(Reference& reference, const Sweep& sweep,
-                                 const RangeProfile& profile, const geometry::UncertainPose2& prior,
-                                 const SearchWindow& window);
-  Hypothesis refine(const Submap& submap, const Sweep& sweep, const RangeProfile& profile,
-                    const geometry::Pose2& start, const geometry::UncertainPose2& prior,
-                    double scale);
-  MatchOutcome conclude(std::vector<Hypothesis>& hypotheses, const geometry::UncertainPose2& prior,
-                        const SearchWindow& window) const;
+  Attempt matchWith(const Reference& reference, const Task& task) const;
+  Attempt matchWidely(const Reference& reference, const Task& task,
+                      std::vector<Hypothesis> hypotheses) const;
+  static Task widened(const Task& task);
+  static Rasters rastersAbout(const Reference& reference, const Eigen::Vector2d& centre_odom);
+  bool differsFromFresh(const MatchOutcome& outcome, const Task& task, Rasters& rasters) const;
+  Hypothesis refine(const Submap& submap, const Task& task, const geometry::Pose2& start,
+                    double scale) const;
+  MatchOutcome conclude(std::vector<Hypothesis>& hypotheses, const Task& task) const;
   bool isClear(const Hypothesis& hypothesis, bool predicted) const;
-  double addKeyframe(Reference& reference, const Sweep& sweep, const geometry::Pose2& T_odom_base);
+  double addKeyframe(Reference& reference, const SurfaceScan& surfaces,
+                     const geometry::Pose2& T_odom_base);
 
   SubmapConfig config_;
   LineMatcher lines_;
   Reference trusted_;
   Reference fresh_;
-  bool matched_fresh_ = false;
   int fresh_matches_ = 0;
 };
 

@@ -22,11 +22,22 @@ struct SurfacePoint {
   bool hasNormal() const { return normal != Eigen::Vector2d::Zero(); }
 };
 
+/// When and from where a point was seen.
+struct Sighting {
+  double time = 0.0;  ///< since the first beam, as a share of the sweep's, [0, 1]
+  Eigen::Vector2d sensor_base = Eigen::Vector2d::Zero();  ///< of the sensor then [m]
+};
+
 /// What one scan shows of the surfaces around.
-struct Sweep {
+struct SurfaceScan {
   std::vector<SurfacePoint> points;                  ///< of the valid beams, in their order
   Eigen::Vector2d sensor = Eigen::Vector2d::Zero();  ///< in the base, at the stamp [m]
   double beam_angle = 0.0;                           ///< from one beam to the next [rad]
+  /// What is not known of the sensor's motion, along the axes of the base. The jitter is in the
+  /// variances of the points.
+  scan::MotionNoise motion_noise;
+  /// One entry a point; empty where drift and walk of the motion are zero.
+  std::vector<Sighting> sightings;
 };
 
 /// Reads the valid beams of a scan. Each point gets a line through its neighbours on the same
@@ -34,8 +45,7 @@ struct Sweep {
 ///
 /// @param twist  of the base [m/s, m/s, rad/s]: corrects the sweep where the beams have time
 ///               offsets and the scan says no motion of its own
-/// Throws scan::InvalidScan where the scan's vectors do not have one entry a beam.
-Sweep readSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                const Eigen::Vector3d& twist);
+SurfaceScan readSurfaces(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
+                         const Eigen::Vector3d& twist);
 
 }  // namespace sightline::dead_reckoning

@@ -4,24 +4,29 @@
 
 #include <Eigen/Core>
 
+#include "sightline/config/fields.h"
 #include "sightline/motion/head_command.h"
 
 namespace sightline::driver {
 
-/// The joint of the sensor head and the frames about it, by their names in a robot description.
+/// The joint of the sensor head and the frames about it, by their names in a robot description and
+/// in tf.
 struct HeadFrames {
   std::string joint = "head_joint";
   std::string mount = "active_sensor";    ///< the head turns about its z axis
   std::string head = "head";              ///< the same frame, turned
   std::string projection = "projection";  ///< hangs on the head by a fixed joint, parallel to it
+
+  void visit(config::FieldVisitor& visitor);
 };
 
 /// What a robot description says of them.
 struct HeadJoint {
   /// Lower and upper end, and the largest rate; the rest is as for any servo of this sensor.
   motion::HeadLimits limits;
-  /// Of the projection frame in the head's [m].
+  /// Position of the projection frame in the head's [m].
   Eigen::Vector2d scan_origin = Eigen::Vector2d::Zero();
+  double scan_height = 0.0;  ///< of the projection frame above the head's [m]
 
   std::string projection;  ///< name of that frame
 

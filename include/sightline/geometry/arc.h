@@ -25,4 +25,9 @@ struct Arc {
   std::size_t degrees_of_freedom = 0;
 };
 
+/// The arc as the same sensor the right way up sees it, of one that hangs upside down: mirrored at
+/// the x axis. Beams keep their numbers; as angles run counter-clockwise, start and end angle
+/// change places.
+Arc mirrored(const Arc& arc);
+
 }  // namespace sightline::geometry

@@ -35,4 +35,9 @@ struct LineSegment {
   std::size_t degrees_of_freedom = 0;
 };
 
+/// The segment as the same sensor the right way up sees it, of one that hangs upside down: mirrored
+/// at the x axis (φ → −φ, y → −y). Beams keep their numbers, and so the start stays the end that
+/// the first beam met; the covariance of ρ and φ changes its sign.
+LineSegment mirrored(const LineSegment& segment);
+
 }  // namespace sightline::geometry

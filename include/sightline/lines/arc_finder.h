@@ -9,6 +9,7 @@
 #include "sightline/lines/arc_runs.h"
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/line_extractor_config.h"
+#include "sightline/lines/motion_sum.h"
 #include "sightline/lines/piece.h"
 #include "sightline/scan/scan.h"
 
@@ -34,6 +35,8 @@ class ArcFinder {
                 std::vector<Piece>& pieces, std::vector<geometry::Arc>& arcs);
   void observe(const scan::Scan& scan, const BeamArray& beams, const Run& run);
   void observeTangent(const scan::Scan& scan, std::size_t beam, Side side);
+  Eigen::Matrix3d motionCovariance(const scan::Scan& scan, const BeamArray& beams, const Run& run,
+                                   const fitting::ArcFit& fit);
   bool isPlausible(const fitting::ArcFit& fit) const;
   bool isLikelier(const fitting::ArcFit& fit, const BeamArray& beams, const Run& run,
                   const std::vector<Piece>& pieces) const;
@@ -42,6 +45,8 @@ class ArcFinder {
   double gate_squared_;
   ArcRuns runs_;
   fitting::ArcObservations observations_;
+  std::vector<std::size_t> tangent_beams_;  // of the scan
+  MotionSum<3> motion_sum_;
 };
 
 }  // namespace sightline::lines

@@ -53,7 +53,7 @@ class ArcRuns {
   Gap gap_;
   const BeamArray* beams_ = nullptr;
   std::size_t begin_ = 0;
-  std::vector<Owner> owners_;  // of each return of a round
+  std::vector<Owner> owners_;  // of each return of a revolution
   std::vector<Run> runs_;
   std::vector<Run> loose_runs_;
 };

@@ -21,12 +21,20 @@ struct BeamArray {
   std::vector<float> across_variance;           ///< across the beam [m²]
   /// Index in the scan; past the seam of a full circle it counts on from the number of beams.
   std::vector<std::uint32_t> beam;
-  std::size_t round = 0;  ///< returns of one round
-  std::size_t size = 0;   ///< `round`, or twice that on a full circle
+  /// Covariance of the errors along the beam and across it, to the left [m²]; read only where
+  /// `has_jitter`.
+  std::vector<float> cross_covariance;
+  bool has_jitter = false;
+  std::size_t revolution = 0;  ///< returns of one revolution
+  std::size_t size = 0;        ///< `revolution`, or twice that on a full circle
 
-  /// Takes a scan in. On a full circle the round starts at `first_beam` and every return stands
-  /// here twice, one round apart, so that nothing is cut at the seam. The arrays are longer than
-  /// `size` by kPadding beams that lie on no line.
+  /// Takes a scan in. On a full circle the revolution starts at `first_beam` and every return
+  /// stands here twice, one revolution apart, so that nothing is cut at the seam. The arrays are
+  /// longer than `size` by kPadding beams that lie on no line.
+  ///
+  /// The jitter of the motion's noise turns each beam about the axis by an error δ of its own,
+  /// which moves its end point p by δ perp(p − axis): the variances hold it. Drift and walk are not
+  /// in them, as they are common to the beams (SweepNoise).
   void assign(const scan::Scan& scan, std::size_t first_beam = 0);
 
  private:
@@ -34,9 +42,10 @@ struct BeamArray {
   void takeDirections(const std::shared_ptr<const scan::ScanGeometry>& geometry);
   void appendValid(const scan::Scan& scan, std::size_t first, std::size_t end, std::size_t shift);
   void appendRun(const scan::Scan& scan, std::size_t first, std::size_t end, std::size_t shift);
+  void addJitter(const scan::Scan& scan, std::size_t first, std::size_t end);
   void place(const scan::Scan& scan, std::size_t first, std::size_t end);
   void placeMoved(const scan::Scan& scan, std::size_t first, std::size_t end);
-  void repeatRound(std::size_t beams);
+  void repeatRevolution(std::size_t beams);
   void pad();
 
   std::shared_ptr<const scan::ScanGeometry> geometry_;

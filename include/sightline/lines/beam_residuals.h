@@ -43,7 +43,10 @@ inline BeamResiduals residualsOf(const BeamArray& beams, std::size_t first,
   const Packet facing = nx * dx + ny * dy;
   const Packet c = larger(facing, all(kMinIncidence));
   const Packet s = nx * dy - ny * dx;
-  const Packet q = c * c * along_variance + s * s * across_variance;
+  Packet q = c * c * along_variance + s * s * across_variance;
+  if (__builtin_expect(beams.has_jitter, false)) {
+    q -= 2.0F * c * s * load(beams.cross_covariance.data() + first);
+  }
   const Packet inverse = 1.0F / (c * q);
   const Packet e = nx * x + ny * y - rho;
   constexpr float kOffAnyLine = 1e6F;

@@ -23,7 +23,7 @@ class EndPoints {
   EndPoints(const scan::Scan& scan, const BeamArray& beams) : scan_(scan), beams_(beams) {}
 
   /// `neighbour` is the piece met next in the direction of the end, null where there is none; on a
-  /// full circle its return numbers may be a round off.
+  /// full circle its return numbers may be a revolution off.
   EndPoint start(const Piece& piece, const Piece* neighbour) const;
   EndPoint end(const Piece& piece, const Piece* neighbour) const;
 
@@ -34,6 +34,7 @@ class EndPoints {
     double position;
     double range;
     double variance;  // of the position, from the uncertainty of the line
+    double jitter;    // variance of the position, from that of the beam's direction
     bool exists;
   };
   EndPoint find(const Piece& piece, const Piece* neighbour, Side side) const;
@@ -44,6 +45,7 @@ class EndPoints {
   /// Between an outermost return of a piece and the one before it: near a corner the noise may put
   /// a return on the other wall.
   double spacingAt(const Piece& piece, std::size_t i) const;
+  double jitterAt(const Eigen::Vector2d& point, const Eigen::Vector2d& slide) const;
   Meeting meet(const LineEstimate& line, std::size_t beam) const;
 
   const scan::Scan& scan_;

@@ -10,6 +10,7 @@
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/lines/merging.h"
 #include "sightline/lines/piece.h"
+#include "sightline/lines/sweep_noise.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::lines {
@@ -51,6 +52,7 @@ class LineExtractor {
 
   LineExtractorConfig config_;
   BeamArray beams_;
+  SweepNoise sweep_noise_;
   std::vector<Piece> pieces_;
   ArcFinder arc_finder_;
   std::vector<geometry::LineSegment> segments_;

@@ -8,6 +8,7 @@
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/lines/normal_equations.h"
 #include "sightline/lines/piece.h"
+#include "sightline/lines/sweep_noise.h"
 
 namespace sightline::lines {
 
@@ -17,13 +18,15 @@ namespace sightline::lines {
 ///
 /// pears moves the state into the sensor's frame of every beam (eqs 20-25). Here the beams have
 /// been moved into the frame of the scan at its stamp instead, where a wall stands still and the
-/// prediction is the identity: the same filter, for any planar motion. Observations are validated
+/// prediction is the identity: the same filter, for any planar motion. What is not known of the
+/// motion widens the gate of the prediction (Q of eq. 21). Observations are validated
 /// several at once against one prediction and taken in one update.
 class LineFilter {
  public:
   static constexpr std::size_t kFewestToStart = 5;
 
-  LineFilter(const BeamArray& beams, const LineExtractorConfig& config);
+  LineFilter(const BeamArray& beams, const SweepNoise& sweep_noise,
+             const LineExtractorConfig& config);
 
   /// Batch start (section 4.6) with the returns from `first` on, as many as the direction needs.
   /// False where no line explains them.
@@ -48,12 +51,14 @@ class LineFilter {
   Validation validate(std::size_t first) const;
   bool isUnbroken(std::size_t from, std::size_t to) const;
   std::size_t countBridged(const Validation& validation, std::size_t next, std::size_t count) const;
+  double motionNoise(std::size_t next) const;
   void update(NormalEquations fresh);
-  bool isYoung() const;
+  bool isDirectionUncertain() const;
   void relinearise();
   std::size_t lookAhead(std::size_t next, std::size_t end) const;
 
   const BeamArray& beams_;
+  const SweepNoise& sweep_noise_;
   const LineExtractorConfig& config_;
   Gap gap_;
   double gate_squared_;

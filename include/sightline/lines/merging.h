@@ -1,30 +1,38 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/gap.h"
 #include "sightline/lines/piece.h"
+#include "sightline/lines/sweep_noise.h"
 
 namespace sightline::lines {
 
 /// Squared Mahalanobis distance of two lines in (ρ, φ), which has two degrees of freedom if they
 /// are one. The frame's origin is put on `before` at `position` for it: near the place where the
-/// pieces meet, the lines are nearly linear in their parameters.
-double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after, double position);
+/// pieces meet, the lines are nearly linear in their parameters. `motion_noise` is the covariance
+/// of their difference, seen from there, that the noise of the sensor's motion makes.
+double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after, double position,
+                          const Eigen::Matrix2d& motion_noise = Eigen::Matrix2d::Zero());
 
 /// Joins neighbouring pieces of one wall.
 class Merging {
  public:
-  Merging(const BeamArray& beams, const LineExtractorConfig& config);
+  Merging(const BeamArray& beams, SweepNoise& sweep_noise, const LineExtractorConfig& config);
 
   /// Makes one piece of two where they lie on one line, nothing wider than the gap limit is between
   /// them, and the line through both explains their returns.
   bool merge(Piece& before, const Piece& after) const;
 
  private:
+  bool mayBeOne(const Piece& before, const Piece& after, double position) const;
+
   const BeamArray& beams_;
+  SweepNoise& sweep_noise_;
   Gap gap_;
   double gate_;
-  double misfit_;
+  double chi_square_ratio_;
   double distance_limit_;
 };
 

@@ -26,9 +26,9 @@ class NormalSums {
  public:
   explicit NormalSums(double reference) : reference_(static_cast<float>(reference)) {}
 
-  /// Adds beams, each times its share (0 or 1).
-  void add(const BeamResiduals& residuals, const Packet& squared, const Packet& share) {
-    const Packet w = share * residuals.weight;
+  /// Adds beams, each times `taken` (0 or 1).
+  void add(const BeamResiduals& residuals, const Packet& squared, const Packet& taken) {
+    const Packet w = taken * residuals.weight;
     const Packet a = residuals.position - reference_;
     const Packet wa = w * a;
     w_ += w;
@@ -36,8 +36,8 @@ class NormalSums {
     waa_ += wa * a;
     we_ += w * residuals.distance;
     wae_ += wa * residuals.distance;
-    chi_square_ += share * squared;
-    beams_ += share;
+    chi_square_ += taken * squared;
+    beams_ += taken;
   }
 
   NormalEquations total() const {

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "sightline/geometry/line_segment.h"
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/scan/scan.h"
@@ -13,6 +15,9 @@ namespace sightline::lines {
 /// beams, in the projection frame of each beam in turn, with a batch start wherever an observation
 /// is not validated. It has the fragmentation that the paper shows in figure 5; LineExtractor has
 /// not. For comparison.
+///
+/// Where the scan says so, the motion has noise: Q of eqs 23 and 24 enters each prediction (eq. 21)
+/// as if the errors of all stretches of time were independent, which is true of the walk alone.
 class PlainExtractor {
  public:
   /// Points of the batch start (k of section 4.6).
@@ -22,7 +27,8 @@ class PlainExtractor {
   explicit PlainExtractor(const LineExtractorConfig& config = {});
 
   /// Segments in the scan's frame at its stamp, in the order of their first beams; kinds of ends
-  /// are not found. Valid until the next call.
+  /// are not found; their sigmas are those of the outermost returns along the line. Valid until the
+  /// next call.
   const std::vector<geometry::LineSegment>& extract(const scan::Scan& scan);
 
  private:
@@ -33,9 +39,15 @@ class PlainExtractor {
     std::size_t last = 0;
     std::size_t beams = 0;
     double chi_square = 0.0;
+    // Covariance of the sensor's coordinates at `last`, and of the line's error with them: both are
+    // needed to take the line to the stamp.
+    Eigen::Matrix3d motion = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 2, 3> line_motion = Eigen::Matrix<double, 2, 3>::Zero();
   };
+  void predict(const scan::Scan& scan, std::size_t beam, Track& track) const;
   bool start(const scan::Scan& scan, const std::vector<std::size_t>& beams, Track& track) const;
   bool update(const scan::Scan& scan, std::size_t beam, Track& track) const;
+  geometry::PolarLine atStamp(const scan::Scan& scan, const Track& track) const;
   void report(const scan::Scan& scan, const Track& track);
 
   LineExtractorConfig config_;

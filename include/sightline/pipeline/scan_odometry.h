@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "sightline/dead_reckoning/dead_reckoner.h"
-#include "sightline/dead_reckoning/floor_finder.h"
 #include "sightline/geometry/pose2.h"
+#include "sightline/motion/floor_finder.h"
 #include "sightline/motion/odometry_noise.h"
+#include "sightline/pipeline/located_scan.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::pipeline {
@@ -26,20 +27,10 @@ struct WheelsConfig {
 
 struct ScanOdometryConfig {
   dead_reckoning::DeadReckonerConfig matching;
-  bool leans =
-      false;  ///< whether the scanner does not keep level, so that it sees floor and ceiling
-  dead_reckoning::FloorConfig floor;
   WheelsConfig wheels;
   double turn_rate_sigma = 0.02;  ///< of a gyroscope [rad/s]
 
   void visit(config::FieldVisitor& visitor);
-};
-
-/// What is known beside a scan; all of it may be missing.
-struct OdometryAids {
-  std::optional<geometry::Pose2> T_odom_base;  ///< by the wheels, at the stamp
-  std::optional<double> turn;                  ///< by a gyroscope, since the scan before [rad]
-  std::optional<dead_reckoning::SweepAttitude> attitude;  ///< of the sensor
 };
 
 /// Odometry from scans, with what goes around the matching: the prior from wheels or a gyroscope,
@@ -50,42 +41,43 @@ struct OdometryAids {
 class ScanOdometry {
  public:
   /// Throws config::Error if the configuration is out of range.
-  explicit ScanOdometry(const ScanOdometryConfig& config);
+  ///
+  /// @param floor  of a scanner that leans: beams on floor or ceiling are looked for in scans that
+  ///               bring no attitude
+  explicit ScanOdometry(const ScanOdometryConfig& config,
+                        const std::optional<motion::FloorConfig>& floor = {});
 
-  /// Takes one scan. Nothing for one that is not newer than the one before. The update's `step`
-  /// holds the turn between the scans, with its covariance, for others to use. Throws
-  /// scan::InvalidScan.
-  std::optional<dead_reckoning::DeadReckoningUpdate> update(const scan::Scan& scan,
-                                                            const geometry::Pose2& T_base_sensor,
-                                                            const OdometryAids& aids = {});
+  /// Takes one scan; a sensor of unknown mounting is taken for the base. Nothing for one that is
+  /// not newer than the one before. The update's `step` holds the turn between the scans, with its
+  /// covariance, for others to use.
+  std::optional<dead_reckoning::DeadReckoningUpdate> update(const LocatedScan& located);
   /// Starts anew at the next scan.
   void reset();
   /// The clock was set back: forgets the stamp of the last scan but keeps the pose.
   void restartClock();
 
-  /// Which beams of the last scan were left out; empty where the scanner keeps level.
+  /// Which beams of the last scan were found to be on floor or ceiling; empty where none were
+  /// looked for.
   const std::vector<bool>& beamsOnFloor() const { return on_floor_; }
 
  private:
   struct Before {
     std::int64_t stamp = 0;
     std::optional<geometry::Pose2> T_odom_base;  // by the wheels
-    Eigen::Vector3d twist = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d twist_covariance = Eigen::Matrix3d::Zero();
+    geometry::UncertainTwist2 twist;
   };
   using Update = dead_reckoning::DeadReckoningUpdate;
   using Prior = std::optional<dead_reckoning::MotionPrior>;
 
-  Prior priorOf(const scan::Scan& scan, const OdometryAids& aids) const;
+  Prior priorOf(const LocatedScan& located) const;
   dead_reckoning::MotionPrior asBefore(double elapsed, double turn) const;
-  std::optional<Update> match(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                              const OdometryAids& aids, const Prior& prior);
   std::optional<Update> matchLeaning(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
                                      const Prior& prior);
 
   ScanOdometryConfig config_;
   dead_reckoning::DeadReckoner reckoner_;
-  dead_reckoning::FloorFinder finder_;
+  std::optional<motion::FloorConfig> floor_;
+  std::optional<motion::FloorFinder> finder_;  // of a scanner that leans
   std::optional<Before> before_;
   bool is_new_ = true;
   std::vector<bool> on_floor_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <random>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -10,6 +11,8 @@
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/detector.h"
 #include "sightline/simulation/optical_head.h"
+#include "sightline/simulation/random_stream.h"
+#include "sightline/simulation/scene.h"
 #include "sightline/triangulation/ranger.h"
 #include "sightline/world/world.h"
 
@@ -33,6 +36,9 @@ class ActiveSensor {
   /// the time of their first sample.
   std::vector<triangulation::RawScan> advance(const world::World& world, std::int64_t time,
                                               const MountPoseAt& T_map_mount);
+  /// In a world in which things move.
+  std::vector<triangulation::RawScan> advance(const WorldAt& world_at, std::int64_t time,
+                                              const MountPoseAt& T_map_mount);
 
   const motion::SensorHead& head() const { return head_; }
   const ActiveSensorProfile& profile() const { return profile_; }
@@ -41,6 +47,7 @@ class ActiveSensor {
 
  private:
   std::int64_t timeOf(std::int64_t sample) const;
+  double trueHeadAngle();
   triangulation::Photocurrents sample(const world::World& world,
                                       const Eigen::Isometry3d& T_map_mount, std::size_t beam);
 
@@ -48,6 +55,8 @@ class ActiveSensor {
   OpticalHead optics_;
   Detector detector_;
   motion::SensorHead head_;
+  RandomStream random_;  // of the jitter
+  std::normal_distribution<double> normal_;
   std::vector<double> angles_;  // of the beams, in the projection frame [rad]
   std::int64_t samples_ = 0;    // so far
   triangulation::RawScan scan_;

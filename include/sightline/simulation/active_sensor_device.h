@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "sightline/driver/device_model.h"
 #include "sightline/simulation/active_sensor.h"
+#include "sightline/simulation/device_model.h"
 #include "sightline/simulation/emulated_firmware.h"
 #include "sightline/world/world.h"
 
@@ -16,7 +16,7 @@ namespace sightline::simulation {
 FirmwareConfig firmwareOf(const ActiveSensorProfile& profile);
 
 /// A simulated sensor that stands still in a world, for an emulated device.
-class ActiveSensorDevice : public driver::DeviceModel {
+class ActiveSensorDevice : public DeviceModel {
  public:
   /// Throws config::Error.
   ActiveSensorDevice(const ActiveSensorProfile& profile, world::World world,

@@ -33,8 +33,7 @@ class EmulatedDevice {
   /// from the construction on. Scans are reported by that thread as well, true times as of
   /// std::chrono::system_clock [ns]. Throws config::Error.
   EmulatedDevice(const std::string& path, const FirmwareConfig& config,
-                 std::unique_ptr<driver::DeviceModel> model, std::uint64_t seed,
-                 OnScan on_scan = {});
+                 std::unique_ptr<DeviceModel> model, std::uint64_t seed, OnScan on_scan = {});
   ~EmulatedDevice();
   EmulatedDevice(const EmulatedDevice&) = delete;
   EmulatedDevice& operator=(const EmulatedDevice&) = delete;
@@ -92,7 +91,7 @@ class EmulatedDevice {
 
   std::string path_;
   int baud_rate_;
-  std::unique_ptr<driver::DeviceModel> model_;
+  std::unique_ptr<DeviceModel> model_;
   EmulatedFirmware firmware_;
   Cable cable_;
   OnScan on_scan_;

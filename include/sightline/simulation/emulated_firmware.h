@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "sightline/driver/device_model.h"
 #include "sightline/driver/frame_parser.h"
 #include "sightline/driver/messages.h"
+#include "sightline/simulation/device_model.h"
 #include "sightline/simulation/random_stream.h"
 
 namespace sightline::simulation {
@@ -42,7 +42,7 @@ struct SentFrame {
 class EmulatedFirmware {
  public:
   /// The model has to live as long. Not started yet.
-  EmulatedFirmware(const FirmwareConfig& config, driver::DeviceModel& model, std::uint64_t seed);
+  EmulatedFirmware(const FirmwareConfig& config, DeviceModel& model, std::uint64_t seed);
 
   /// Starts anew: nothing is remembered. Says who it is.
   void boot(std::int64_t time);
@@ -66,7 +66,7 @@ class EmulatedFirmware {
   void put(const Message& message, std::int64_t time);
 
   FirmwareConfig config_;
-  driver::DeviceModel& model_;
+  DeviceModel& model_;
   RandomStream random_;
   driver::FrameParser parser_;
   driver::FrameEncoder encoder_;

@@ -19,6 +19,7 @@ namespace sightline::simulation {
 /// speed: 0.6                          # m/s
 /// turn_rate: 0.8                      # rad/s, at most
 /// tolerance: 0.3                      # m; this near to a waypoint the next one is headed for
+/// repeat: false                       # whether the first waypoint comes after the last one
 /// waypoints: [[1.0, 2.0], [1.0, 0.0]] # m, in the map
 /// ```
 struct Path {
@@ -26,6 +27,7 @@ struct Path {
   double speed = 0.6;
   double turn_rate = 0.8;
   double tolerance = 0.3;
+  bool repeat = false;
   std::vector<Eigen::Vector2d> waypoints_map;
 
   Path() = default;
@@ -37,7 +39,7 @@ struct Path {
 };
 
 /// Steers along a path: turns towards the next waypoint, slower the more it has to turn, and stays
-/// at the last one.
+/// at the last one, if there is one.
 class PathFollower {
  public:
   /// `acceleration` [m/s²] is what the robot brakes with.
@@ -49,6 +51,7 @@ class PathFollower {
 
  private:
   Velocity towards(const Eigen::Vector2d& target_base) const;
+  bool isLast() const { return !path_.repeat && next_ + 1 == path_.waypoints_map.size(); }
   bool isPassed(const Eigen::Vector2d& target_base) const;
 
   Path path_;

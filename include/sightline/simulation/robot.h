@@ -5,6 +5,7 @@
 #include "sightline/config/fields.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/motion/odometry_noise.h"
+#include "sightline/simulation/body.h"
 #include "sightline/simulation/wheel_odometry.h"
 
 namespace sightline::simulation {
@@ -15,19 +16,43 @@ struct Velocity {
   double angular = 0.0;  ///< [rad/s], counter-clockwise
 };
 
-struct RobotConfig {
+struct DriveLimits {
   double max_speed = 1.0;          ///< [m/s]
   double max_turn_rate = 1.5;      ///< [rad/s]
   double acceleration = 0.5;       ///< [m/s²]
   double turn_acceleration = 2.0;  ///< [rad/s²]
-  double command_timeout = 0.5;    ///< [s]
-  motion::OdometryNoise odometry;
 
   void visit(config::FieldVisitor& visitor);
 };
 
-/// A robot on two wheels: follows a velocity as fast as its limits allow, exactly where it is told
-/// to; its wheels report it with errors.
+/// Follows a velocity as fast as its limits allow, exactly where it is told to.
+class Drive {
+ public:
+  Drive(const DriveLimits& limits, const geometry::Pose2& T_map_base)
+      : limits_(limits), T_map_base_(T_map_base) {}
+
+  /// Moves for `duration` [s], small against the time that the velocity takes to change, and
+  /// returns the motion in the body frame before it.
+  geometry::Pose2 step(const Velocity& wanted, double duration);
+
+  const geometry::Pose2& T_map_base() const { return T_map_base_; }
+  const Velocity& velocity() const { return velocity_; }
+
+ private:
+  DriveLimits limits_;
+  geometry::Pose2 T_map_base_;
+  Velocity velocity_;
+};
+
+struct RobotConfig : DriveLimits {
+  double command_timeout = 0.5;  ///< [s]
+  motion::OdometryNoise odometry;
+  Body body;  ///< what other robots see of it
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// A robot on two wheels, which report with errors how it drives.
 class Robot {
  public:
   Robot(const RobotConfig& config, const geometry::Pose2& T_map_base, std::uint64_t seed);
@@ -35,14 +60,13 @@ class Robot {
   /// Moves for `duration` [s], small against the time that the velocity takes to change.
   void step(const Velocity& wanted, double duration);
 
-  const geometry::Pose2& T_map_base() const { return T_map_base_; }
-  const Velocity& velocity() const { return velocity_; }
+  const geometry::Pose2& T_map_base() const { return drive_.T_map_base(); }
+  const Velocity& velocity() const { return drive_.velocity(); }
   const WheelOdometry& odometry() const { return odometry_; }
+  WheelOdometry& odometry() { return odometry_; }
 
  private:
-  RobotConfig config_;
-  geometry::Pose2 T_map_base_;
-  Velocity velocity_;
+  Drive drive_;
   WheelOdometry odometry_;
 };
 

@@ -10,30 +10,16 @@
 
 #include "sightline/config/fields.h"
 #include "sightline/scan/scan.h"
+#include "sightline/simulation/mounting.h"
 #include "sightline/simulation/random_stream.h"
 #include "sightline/simulation/scanner_profile.h"
+#include "sightline/simulation/scene.h"
 #include "sightline/world/world.h"
 
 namespace sightline::simulation {
 
-/// Where a sensor sits on its robot; angles as roll, pitch and yaw about the robot's fixed axes,
-/// so that a roll of π mounts it upside down.
-struct Mounting {
-  double x = 0.0;      ///< [m], forward
-  double y = 0.0;      ///< [m], left
-  double z = 0.0;      ///< [m] above the floor
-  double roll = 0.0;   ///< [rad]
-  double pitch = 0.0;  ///< [rad], positive looks down
-  double yaw = 0.0;    ///< [rad]
-
-  void visit(config::FieldVisitor& visitor);
-  Eigen::Isometry3d T_base_sensor() const;
-};
-
-/// A pose of the plane as one in space, upright on the floor.
-Eigen::Isometry3d inSpace(const geometry::Pose2& pose);
-
-/// A scanner that takes its beams one after the other while its carrier moves.
+/// A scanner that takes its beams one after the other while its carrier moves, and while the turret
+/// turns that it may be mounted on.
 class Scanner {
  public:
   /// The carrier's pose at a time [ns].
@@ -41,16 +27,22 @@ class Scanner {
   /// That of a carrier which leans and bobs; its origin at the floor while it stands upright.
   using PoseInSpaceAt = std::function<Eigen::Isometry3d(std::int64_t)>;
 
-  /// Throws config::Error if the profile does not fit together.
-  Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed);
+  /// `turret_rate` [rad/s], counter-clockwise about the z axis of the mounting, which is where the
+  /// turret is at time 0; 0: fixed. Throws config::Error if the profile does not fit together.
+  Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed,
+          double turret_rate = 0.0);
 
   const ScannerProfile& profile() const { return profile_; }
   std::int64_t sweepDuration() const { return sweep_duration_; }  ///< [ns]
+  Eigen::Isometry3d T_base_sensor(std::int64_t time) const;
 
   /// The sweep whose first beam leaves at `stamp` [ns], in the sensor's own frame, with the
   /// variances of the profile's noise. The motion of the sensor is left for the estimators to find.
   scan::Scan sweep(const world::World& world, std::int64_t stamp, const PoseAt& T_map_base);
   scan::Scan sweepInSpace(const world::World& world, std::int64_t stamp,
+                          const PoseInSpaceAt& T_map_base);
+  /// In a world in which things move.
+  scan::Scan sweepInSpace(const WorldAt& world_at, std::int64_t stamp,
                           const PoseInSpaceAt& T_map_base);
 
  private:
@@ -58,7 +50,7 @@ class Scanner {
     double range;      // [m]
     double intensity;  // 0 where nothing was measured
   };
-  Echo measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_base,
+  Echo measureBeam(const world::World& world, const Eigen::Isometry3d& T_map_sensor,
                    std::size_t beam);
   std::optional<world::Hit> look(const world::World& world, const Eigen::Isometry3d& T_map_sensor,
                                  double angle) const;
@@ -69,7 +61,8 @@ class Scanner {
   double uniform(double half_width);
 
   ScannerProfile profile_;
-  Eigen::Isometry3d T_base_sensor_;
+  Eigen::Isometry3d T_base_turret_;
+  double turret_rate_;
   std::shared_ptr<const scan::ScanGeometry> geometry_;
   std::int64_t sweep_duration_;
   RandomStream random_;

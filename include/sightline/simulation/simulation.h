@@ -2,111 +2,56 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "sightline/motion/pose_history.h"
-#include "sightline/simulation/active_sensor.h"
-#include "sightline/simulation/gait.h"
-#include "sightline/simulation/path.h"
-#include "sightline/simulation/robot.h"
-#include "sightline/simulation/scanner.h"
+#include "sightline/simulation/carrier.h"
+#include "sightline/simulation/mover.h"
+#include "sightline/simulation/outputs.h"
+#include "sightline/simulation/scene.h"
 #include "sightline/world/world.h"
 
 namespace sightline::simulation {
 
-/// A sweep that has just ended.
-struct FinishedSweep {
-  std::size_t scanner = 0;  ///< in the order in which they were added
-  scan::Scan scan;
-};
-
-/// A scan of an active sensor that has just ended.
-struct FinishedRangeScan {
-  std::size_t sensor = 0;  ///< in the order in which they were added
-  motion::RangeScan range_scan;
-};
-
-/// A robot with its scanners in a world, in steps of a fixed length. Time is in nanoseconds from
-/// the start of the run. The same configuration, seed and commands give the same run to the bit,
-/// however often it is looked at.
+/// Robots with their sensors, and what else moves, in one world and by one clock, in steps of a
+/// fixed length. Robots and movers are seen by the sensors of the others, and drive through each
+/// other. Time is in nanoseconds from the start of the run. The same configuration, seed and
+/// commands give the same run to the bit, however often it is looked at; what is random about a
+/// robot does not depend on how many there are.
 class Simulation {
  public:
-  static constexpr std::int64_t kStep = 5'000'000;  ///< [ns]
+  static constexpr std::int64_t kStep = Carrier::kStep;  ///< [ns]
 
-  /// Throws config::Error if the configuration is out of range.
+  Simulation(world::World world, std::uint64_t seed) : scene_(std::move(world)), seed_(seed) {}
+  /// With a first robot.
   Simulation(world::World world, const RobotConfig& config, const geometry::Pose2& T_map_base,
              std::uint64_t seed);
 
-  /// Sweeps begin at time 0. Throws config::Error.
-  void addScanner(const ScannerProfile& profile, const Mounting& mounting);
-  /// Samples begin at time 0, its head standing straight ahead. Throws config::Error.
-  void addActiveSensor(const ActiveSensorProfile& profile, const Mounting& mounting);
-  /// From now on a person carries the scanners: what the robot does is where that person goes, and
-  /// the gait comes on top. Throws config::Error if the configuration is out of range.
-  void walk(const GaitConfig& gait);
-  /// From now on the path drives, and commands are not heard.
-  void follow(const Path& path);
-  /// What the robot shall do until the next command, or until the time-out.
-  void command(const Velocity& velocity);
-  /// What the head of an active sensor shall do; one that its limits do not allow is not heard.
-  void commandHead(std::size_t sensor, const motion::HeadCommand& command);
+  /// Robots count from 0. To be added before the first step. Throws config::Error if the
+  /// configuration is out of range.
+  Carrier& addRobot(const RobotConfig& config, const geometry::Pose2& T_map_base);
+  /// Adds something that follows a path and is seen as `body`. To be added before the first step.
+  /// Throws config::Error.
+  void addMover(const Body& body, const Path& path, const geometry::Pose2& T_map_start);
 
-  /// Moves on by kStep; the sweeps that ended within it, by scanner and time.
-  std::vector<FinishedSweep> step();
-
-  /// Those of active sensors that ended within the last step.
-  const std::vector<FinishedRangeScan>& rangeScans() const { return range_scans_; }
+  /// Moves on by kStep and returns what was measured meanwhile. The first step also reports the
+  /// states of time 0.
+  Outputs step();
 
   std::int64_t time() const { return time_; }
-  const Robot& robot() const { return robot_; }
-  /// As it was at the last sample, less than a sample ago.
-  const motion::SensorHead& head(std::size_t sensor) const {
-    return active_sensors_[sensor].sensor.head();
-  }
-  const triangulation::Calibration& calibration(std::size_t sensor) const {
-    return active_sensors_[sensor].ranger.calibration();
-  }
-  /// Where the scanners' carrier is in the plane, gait and all; [0, time()] but no more than the
-  /// last ten seconds.
-  geometry::Pose2 T_map_base(std::int64_t time) const;
-  /// How the trunk of a person moves at such a time; nothing moves on a robot.
-  BodyMotion bodyMotion(std::int64_t time) const;
+  std::size_t robots() const { return carriers_.size(); }
+  Carrier& carrier(std::size_t robot = 0) { return *carriers_[robot]; }
+  const Carrier& carrier(std::size_t robot = 0) const { return *carriers_[robot]; }
+  const Robot& robot(std::size_t robot = 0) const { return carriers_[robot]->robot(); }
 
  private:
-  struct Mounted {
-    Scanner scanner;
-    std::int64_t sweeps = 0;  ///< so far
-    std::int64_t nextStamp() const;
-  };
-  struct MountedActiveSensor {
-    ActiveSensor sensor;
-    triangulation::Ranger ranger;
-    Eigen::Isometry3d T_base_mount;
-  };
-  Velocity wanted();
-  void walkOn();
-  Eigen::Isometry3d carrierInSpace(std::int64_t time) const;
-  scan::Scan sweep(Mounted& mounted) const;
-  void advanceActiveSensors();
-
-  world::World world_;
-  RobotConfig config_;
+  Scene scene_;
   std::uint64_t seed_;
-  Robot robot_;
-  std::vector<Mounted> scanners_;
-  std::vector<MountedActiveSensor> active_sensors_;
-  std::vector<FinishedRangeScan> range_scans_;
-  std::optional<PathFollower> follower_;
-  std::int64_t departure_ = 0;  // of the follower
-  Velocity command_;
-  std::optional<std::int64_t> commanded_at_;
+  // At fixed places, as the scene asks them where they are.
+  std::vector<std::unique_ptr<Carrier>> carriers_;
+  std::vector<std::unique_ptr<Mover>> movers_;
+  std::vector<std::size_t> bodies_;  // of each robot, in the scene
   std::int64_t time_ = 0;
-  motion::PoseHistory way_;  // T_map_base without the gait
-  GaitConfig gait_config_;
-  std::optional<Gait> gait_;
-  std::deque<BodyMotion> body_motions_;  // one a step; the last one is that of now
 };
 
 }  // namespace sightline::simulation

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "sightline/geometry/pose2.h"
+#include "sightline/geometry/twist2.h"
 #include "sightline/motion/odometry_noise.h"
 #include "sightline/simulation/random_stream.h"
 
@@ -22,6 +23,10 @@ class WheelOdometry {
   /// T_odom_base as reported: the sum of the measured steps, nothing taken out. Its covariance is
   /// what spread the model leaves, that of the scale included; the biases are not in it.
   geometry::UncertainPose2 pose() const;
+  /// Mean velocity as reported since beginInterval(), which was `duration` [s] ago, with the
+  /// covariance that the noise leaves of such a step.
+  geometry::UncertainTwist2 twist(double duration) const;
+  void beginInterval() { T_odom_begin_ = T_odom_base_; }
   /// Factor from measured to true length of this run.
   double scale() const { return scale_; }
 
@@ -33,6 +38,7 @@ class WheelOdometry {
   std::normal_distribution<double> normal_;
   double scale_;
   geometry::Pose2 T_odom_base_;
+  geometry::Pose2 T_odom_begin_;  // at the last beginInterval()
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d scale_jacobian_ = Eigen::Vector3d::Zero();  // ∂T_odom_base/∂scale
 };

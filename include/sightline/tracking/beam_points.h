@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include "sightline/geometry/pose2.h"
-#include "sightline/motion/odometry_noise.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::tracking {
@@ -18,20 +17,27 @@ struct BeamPoint {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();      ///< where the sensor was [m]
   double range = 0.0;                                    ///< [m]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of the position [m²]
-  double sweep_share = 0.0;  ///< of the sweep's duration that had passed, [0, 1]
+  double sweep_ratio = 0.0;  ///< time since the first beam over that of the last, [0, 1]
 };
 
-/// The valid beams of a scan, and what is not known of the sensor's motion from the first beam to
-/// the last.
+/// The valid beams of a scan, and what is not known of the motion from the first beam to the last.
 struct Sweep {
   std::vector<BeamPoint> points;
-  /// Of the motion over the whole sweep, in coordinates [m², m rad, rad²]; zero where the sensor
-  /// stood still.
+  /// Covariance of a twist of the base frame, ordered x, y, θ [m², m rad, rad²], by which the last
+  /// beam is off; the beams before it by their share of the time. Zero where the motion is known.
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
 };
 
-/// `point_sigma` above zero replaces the scan's noise by an isotropic one (jensfelt section 2).
-Sweep readSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                const motion::OdometryNoise& odometry, double point_sigma = 0.0);
+/// Reads a scan. Its motion noise is taken for the base's: turned into a twist of the sensor's
+/// frame at the stamp it changes to the base frame by the adjoint, whatever a head did in between.
+/// `walk` is taken for a drift that ends with the same covariance: at a ratio s of the sweep's time
+/// it counts s² of the variance and not s. `jitter` widens each beam across its distance from the
+/// axis.
+///
+/// @param T_base_sensor  at the stamp of the scan
+Sweep readSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor);
+
+/// Gives every beam the same noise in x and in y [m] (jensfelt section 2), the motion being known.
+void makeIsotropic(Sweep& sweep, double sigma);
 
 }  // namespace sightline::tracking

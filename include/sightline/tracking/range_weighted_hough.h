@@ -1,27 +1,20 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "sightline/tracking/beam_points.h"
+#include "sightline/tracking/gated_wall.h"
 #include "sightline/tracking/tracker_config.h"
-#include "sightline/tracking/validation_gate.h"
 
 namespace sightline::tracking {
 
-/// The validated beams of one wall.
-struct GatedWall {
-  ValidationGate gate;
-  std::vector<const BeamPoint*> points;
-};
-
 /// Where the transform found a wall, against where it was predicted.
 struct WallPeak {
-  double distance = 0.0;  ///< Δρ [m]
-  double weight = 0.0;    ///< sum of the ranges of the beams that voted for it [m]
+  double turn = 0.0;          ///< Δφ [rad]
+  double distance = 0.0;      ///< Δρ [m]
+  double weight = 0.0;        ///< sum of the ranges of the beams that voted for it [m]
+  double turn_bin = 0.0;      ///< resolution of the transform [rad]
+  double distance_bin = 0.0;  ///< [m]
 };
 
 struct HoughPeaks {
@@ -32,19 +25,23 @@ struct HoughPeaks {
 
 /// Local range-weighted Hough transform inside the gates (jensfelt section 4.2, after Forsberg et
 /// al.): each beam votes with its range for every line through it, since near beams lie closer
-/// together. The walls turn with the robot, all by the same angle: the turn is the one at which the
-/// walls' best peaks together weigh most.
+/// together. However fine the bins are asked for, a gate holds no more than 200 in either
+/// direction: then they are wider.
 class RangeWeightedHough {
  public:
   explicit RangeWeightedHough(const HoughConfig& config) : config_(config) {}
 
+  /// The walls turn with the robot, all by the same angle: the turn is the one at which the walls'
+  /// best peaks together weigh most. Between peaks that weigh alike, the prediction decides.
   HoughPeaks transform(const std::vector<GatedWall>& walls) const;
+  /// The heaviest peak of one wall alone, as in the paper.
+  std::optional<WallPeak> heaviest(const GatedWall& wall) const;
 
  private:
-  std::vector<double> vote(const GatedWall& wall, double turn) const;
-  std::optional<WallPeak> bestPeak(const GatedWall& wall, double turn) const;
-
   HoughConfig config_;
 };
+
+/// The line that a peak stands for, in the base frame, as uncertain as a bin is wide.
+geometry::PolarLine lineAt(const WallPeak& peak, const geometry::PolarLine& predicted);
 
 }  // namespace sightline::tracking

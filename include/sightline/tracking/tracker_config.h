@@ -6,9 +6,8 @@
 namespace sightline::tracking {
 
 enum class Method {
-  kFull,   ///< body-frame prediction, full covariances, odometry scale estimated
-  kPlain,  ///< jensfelt's own simpler choices: additive prediction, isotropic 50 mm, a floor on the
-           ///< uncertainty
+  kFull,   ///< PoseTrack: body-frame prediction, full covariances, odometry scale estimated
+  kPlain,  ///< PlainTracker: what jensfelt section 4 describes and nothing else
 };
 
 /// The validation gates of jensfelt section 4.2.1.
@@ -48,6 +47,18 @@ struct SlipConfig {
   void visit(config::FieldVisitor& visitor);
 };
 
+/// Numbers of the method plain.
+struct PlainConfig {
+  double point_sigma = 0.05;            ///< of a point in x and in y, jensfelt section 2 [m]
+  double floor_position_sigma = 0.01;   ///< jensfelt section 4.3, where it has no number [m]
+  double floor_heading_sigma = 0.0087;  ///< 0.5° [rad]
+  double distance_sigma = 0.01;         ///< share of a step's length, jensfelt section 4.1
+  double heading_sigma_per_metre = 0.0104719755;  ///< 0.6°, jensfelt section 4.1 [rad/√m]
+  double steering_sigma = 0.001;                  ///< share of a step's turn, jensfelt section 4.1
+
+  void visit(config::FieldVisitor& visitor);
+};
+
 struct TrackerConfig {
   Method method = Method::kFull;
   bool neighbours = true;  ///< whether walls of rooms behind a door are looked for too
@@ -55,21 +66,16 @@ struct TrackerConfig {
   HoughConfig hough;
   WallConfig wall;
   SlipConfig slip;
-  motion::OdometryNoise odometry = defaultOdometry();
+  motion::OdometryNoise odometry = motion::OdometryNoise::unmeasured();
   double threshold_position_sigma = 0.1;    ///< added on passing a door, jensfelt section 4.3 [m]
   double threshold_heading_sigma = 0.0349;  ///< 2° [rad]
-  double floor_position_sigma = 0.01;       ///< method plain, jensfelt section 4.3 [m]
-  double floor_heading_sigma = 0.0087;      ///< method plain [rad]
-  double plain_point_sigma = 0.05;          ///< method plain, jensfelt section 2 [m]
-  double degraded_position_sigma = 0.3;     ///< [m]
-  double degraded_heading_sigma = 0.0524;   ///< 3° [rad]
+  PlainConfig plain;
+  double degraded_position_sigma = 0.3;    ///< [m]
+  double degraded_heading_sigma = 0.0524;  ///< 3° [rad]
   double lost_quality = 0.3;
   int lost_scans = 10;
 
   void visit(config::FieldVisitor& visitor);
-
-  /// Of a robot that nobody has measured: no biases, and twice jensfelt's spreads or more.
-  static motion::OdometryNoise defaultOdometry();
 };
 
 }  // namespace sightline::tracking

@@ -4,7 +4,7 @@
 #include "sightline/geometry/pose2.h"
 #include "sightline/tracking/beam_points.h"
 #include "sightline/tracking/tracker_config.h"
-#include "sightline/tracking/wall_observation.h"
+#include "sightline/tracking/wall_fit.h"
 #include "sightline/world/room_map.h"
 
 namespace sightline::tracking {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,22 @@
 #include "sightline/geometry/segment.h"
 
 namespace sightline::world {
+
+/// A room or door that cannot be. `key()` is the part of its description that is wrong, as the file
+/// names it; empty where it is the whole.
+class InvalidRoomMap : public std::runtime_error {
+ public:
+  InvalidRoomMap(std::string key, const std::string& reason)
+      : std::runtime_error(reason), key_(std::move(key)) {}
+  const std::string& key() const { return key_; }
+
+ private:
+  std::string key_;
+};
+
+/// What a building may measure and where it may stand [m]: beyond, squares overflow or vanish.
+constexpr config::Range kBuildingLengths{0.001, 1e6};
+constexpr config::Range kBuildingCoordinates{-1e6, 1e6};
 
 /// A stretch of a wall, metres from the wall's start.
 struct Span {
@@ -25,11 +42,21 @@ struct Wall {
   std::vector<Span> spans;
 };
 
+/// A wall of a map by its place there.
+struct WallIndex {
+  std::size_t room = 0;
+  std::size_t wall = 0;
+};
+
 /// A named room: a rectangle or a polygon, its walls counter-clockwise.
 struct Room {
   std::string name;
   geometry::Pose2 T_map_room;
   std::vector<Wall> walls;
+  /// Where the walls start, in the room's own frame [m].
+  std::vector<Eigen::Vector2d> corners;
+  /// Whether it was described by its size, and its walls are named by compass.
+  bool is_rectangle = false;
 
   bool contains(const Eigen::Vector2d& point_map) const;
   /// Distance to the nearest side; 0 inside.
@@ -45,7 +72,12 @@ struct Door {
   bool threshold = true;  ///< whether wheels may slip on it (jensfelt section 4.3)
 };
 
-/// Rooms, walls and doors of a floor: what a pose is tracked against.
+/// Where the opening of a door lies in a wall that it pierces, metres from the wall's start; may
+/// reach past the wall's ends.
+Span openingOf(const Door& door, const Wall& wall);
+
+/// Rooms, walls and doors of a floor: what a pose is tracked against. Built step by step, or read
+/// from a file:
 ///
 /// ```yaml
 /// rooms:
@@ -70,8 +102,28 @@ class RoomMap {
   explicit RoomMap(const config::Node& document);
   static RoomMap readFile(const std::string& path) { return RoomMap(config::Node::readFile(path)); }
 
+  /// Adds a room and returns its index; its walls are there over their whole length. Throws
+  /// InvalidRoomMap where the name is taken, a wall has no length, walls cross, the corners do not
+  /// run counter-clockwise, or a length or coordinate is not of a building.
+  std::size_t addRectangle(const std::string& name, const Eigen::Vector2d& size,
+                           const geometry::Pose2& T_map_room = {});
+  std::size_t addPolygon(const std::string& name, const std::vector<Eigen::Vector2d>& corners_room,
+                         const geometry::Pose2& T_map_room = {});
+  /// Says where a wall is really there; none where it is open. To be said before the doors. Throws
+  /// InvalidRoomMap, with the number of the span as its key, where one is no stretch of the wall
+  /// or overlaps the one before it.
+  void setSpans(const WallIndex& wall, const std::vector<Span>& spans);
+  /// Opens the walls of both rooms that are nearest to the centre. Throws InvalidRoomMap where the
+  /// rooms are one, or no wall of either is there for it.
+  ///
+  /// @param centre_map  [m]
+  /// @param width       [m]
+  void addDoor(std::size_t room, std::size_t other, const Eigen::Vector2d& centre_map, double width,
+               bool threshold = true);
+
   const std::vector<Room>& rooms() const { return rooms_; }
   const std::vector<Door>& doors() const { return doors_; }
+  const Wall& wall(const WallIndex& index) const { return rooms_[index.room].walls[index.wall]; }
   std::optional<std::size_t> find(const std::string& name) const;
   /// The room that holds a point; where rooms overlap, `preferred` wins.
   std::optional<std::size_t> roomAt(const Eigen::Vector2d& point_map,
@@ -82,9 +134,8 @@ class RoomMap {
   const Door* doorBetween(std::size_t a, std::size_t b, const Eigen::Vector2d& near_map) const;
 
  private:
-  void addRoom(const std::string& name, const config::Node& node);
-  void addDoor(const config::Node& node);
-  std::size_t roomNamed(const config::Node& name) const;
+  std::size_t add(Room room, const std::vector<std::string>& wall_names);
+  std::size_t pierce(const Door& door, std::size_t room) const;
 
   std::vector<Room> rooms_;
   std::vector<Door> doors_;

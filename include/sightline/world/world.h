@@ -86,6 +86,8 @@ class World {
   /// Throws config::Error with file, line and key.
   explicit World(const config::Node& document);
   static World readFile(const std::string& path) { return World(config::Node::readFile(path)); }
+  /// The solid walls of a map, of plaster and as high as walls are by default, and nothing else.
+  static World of(const RoomMap& map);
 
   /// Index for the surfaces made of it; a second one of a name replaces the first from here on.
   std::size_t addMaterial(const Material& material);
@@ -93,6 +95,9 @@ class World {
   void add(const WorldSegment& segment);
   void add(const WorldDisc& disc) { discs_.push_back(disc); }
   void add(WorldPlate plate) { plates_.push_back(std::move(plate)); }
+  /// Takes the place of a segment or disc that was added, by its index: it has moved.
+  void replace(std::size_t index, const WorldSegment& segment);
+  void replace(std::size_t index, const WorldDisc& disc) { discs_[index] = disc; }
 
   const std::vector<Material>& materials() const { return materials_; }
   const std::vector<WorldSegment>& segments() const { return segments_; }
@@ -121,6 +126,7 @@ class World {
     Eigen::Vector3d start;
     Eigen::Vector3d end;
   };
+  static Side sideOf(const geometry::Segment& segment);
   // Of any order and number of segments.
   class NearestSegment;
   void castOthers(const Ray& ray, std::optional<Hit>& nearest) const;

@@ -53,6 +53,11 @@ void Program::positional(const std::string& name, std::optional<std::string>& va
   app_->add_option_function<std::string>(name, set, meaning)->option_text(" ");
 }
 
+void Program::positionals(const std::string& name, std::vector<std::string>& values,
+                          const std::string& meaning) {
+  app_->add_option(name, values, meaning)->required()->option_text(" ");
+}
+
 void Program::flag(const std::string& name, bool& value, const std::string& meaning) {
   app_->add_flag(name, value, meaning)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -33,6 +34,9 @@ class Program {
   /// One that may be left out.
   void positional(const std::string& name, std::optional<std::string>& value,
                   const std::string& meaning);
+  /// All further words that belong to no option, at least one.
+  void positionals(const std::string& name, std::vector<std::string>& values,
+                   const std::string& meaning);
   /// An option without a value: true where it is given.
   void flag(const std::string& name, bool& value, const std::string& meaning);
 

@@ -32,7 +32,7 @@ class Channel {
  public:
   /// The driver runs in the namespace `name`.
   Channel(const std::string& name, const std::string& folder,
-          std::unique_ptr<driver::DeviceModel> model, double drift = 0.0)
+          std::unique_ptr<simulation::DeviceModel> model, double drift = 0.0)
       : device_(folder + "/" + name, firmware(drift), std::move(model), 20261122,
                 [this](const simulation::DeliveredScan& scan) { onSent(scan); }),
         subscriber_(ros::NodeHandle().subscribe("/" + name + "/range_scan", 100,

@@ -38,7 +38,7 @@ class HeadTruth {
 };
 
 /// A device with a servo head, and the same light on every sample.
-class HeadDevice : public driver::DeviceModel {
+class HeadDevice : public simulation::DeviceModel {
  public:
   static constexpr std::size_t kSamples = 256;
   static constexpr std::int64_t kSample = 400'000;  ///< [ns]
@@ -132,8 +132,6 @@ class HeadSteps {
   }
 
   std::shared_ptr<HeadTruth> truth_ = std::make_shared<HeadTruth>();
-  Process publisher_of_tf_{{"rosrun", "robot_state_publisher", "robot_state_publisher",
-                            "__ns:=head", "_publish_frequency:=1000"}};
   tf2_ros::Buffer tf_{ros::Duration(30.0)};
   tf2_ros::TransformListener listener_{tf_};
   Channel channel_;

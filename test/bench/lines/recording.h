@@ -20,12 +20,13 @@ namespace sightline::bench {
 inline std::vector<scan::Scan> readScans(const std::string& bag_path, const std::string& topic,
                                          const scan::NoiseModel& noise) {
   std::vector<scan::Scan> scans;
-  bridge::ScanReader reader(noise);
+  bridge::ScanReader reader;
   rosbag::Bag bag(bag_path, rosbag::bagmode::Read);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
     if (const auto message = instance.instantiate<sensor_msgs::LaserScan>()) {
       scans.push_back(reader.read(*message));
+      scan::applyNoise(noise, scans.back());
     }
   }
   return scans;

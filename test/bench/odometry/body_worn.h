@@ -44,8 +44,8 @@ class BodyWornWalk {
   BodyWornWalk(const Building& building, double reach, std::uint64_t seed)
       : building_(building),
         simulation_(building.world, person(), start(), seed),
-        odometry_(profileOfCarrier()) {
-    simulation_.walk({});
+        odometry_(profileOfCarrier(), floorOfCarrier()) {
+    simulation_.carrier().walk({});
     simulation::ScannerProfile scanner;
     scanner.beams = 361;
     scanner.angle_min = geometry::radians(-90.0);
@@ -57,17 +57,17 @@ class BodyWornWalk {
     scanner.noise.sigma = 0.01;
     simulation::Mounting mounting;
     mounting.z = kHeight;
-    simulation_.addScanner(scanner, mounting);
+    simulation_.carrier().addScanner(scanner, mounting);
     simulation::Path path;
     path.speed = simulation::GaitConfig().speed;
     path.turn_rate = geometry::radians(200.0);
     path.waypoints_map = building.way;
-    simulation_.follow(path);
+    simulation_.carrier().follow(path);
   }
 
   void run(BodyWornScore& score) {
     while (!hasArrived()) {
-      for (const auto& sweep : simulation_.step()) take(sweep.scan, score);
+      for (const auto& sweep : simulation_.step().sweeps) take(sweep.scan, score);
       way_ += simulation_.robot().velocity().linear * 1e-9 * simulation::Simulation::kStep;
     }
     const geometry::Pose2 error = geometry::between(truth_, estimate_);
@@ -89,11 +89,17 @@ class BodyWornWalk {
     return person;
   }
 
+  static config::Node carrier() {
+    return config::Node::readFile(SIGHTLINE_SOURCE_DIR "/config/carriers/body_worn.yaml");
+  }
   static pipeline::ScanOdometryConfig profileOfCarrier() {
     pipeline::ScanOdometryConfig config;
-    const auto file =
-        config::Node::readFile(SIGHTLINE_SOURCE_DIR "/config/carriers/body_worn.yaml");
-    config::read(file.at("odometry"), config);
+    config::read(carrier().at("odometry"), config);
+    return config;
+  }
+  static motion::FloorConfig floorOfCarrier() {
+    motion::FloorConfig config;
+    config::read(carrier().at("floor"), config);
     return config;
   }
 
@@ -107,9 +113,15 @@ class BodyWornWalk {
     return (here - building_.way.back()).norm() < 0.5;
   }
 
+  static pipeline::LocatedScan located(const scan::Scan& scan) {
+    pipeline::LocatedScan located;
+    located.scan = scan;
+    return located;
+  }
+
   void take(const scan::Scan& scan, BodyWornScore& score) {
-    const Pose2 truth = simulation_.T_map_base(scan.stamp);
-    const auto update = odometry_.update(scan, Pose2());
+    const Pose2 truth = simulation_.carrier().T_map_base(scan.stamp);
+    const auto update = odometry_.update(located(scan));
     ++score.scans;
     countFloor(scan, score);
     if (score.scans > 1 && begun_) scoreStep(geometry::between(before_, truth), *update, score);
@@ -134,9 +146,10 @@ class BodyWornWalk {
 
   bool endsOnFloor(const scan::Scan& scan, std::size_t beam) const {
     const auto time = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets()[beam]);
-    const Eigen::Isometry3d T_map_sensor = simulation::inSpace(simulation_.T_map_base(time)) *
-                                           simulation_.bodyMotion(time).outOfPlane(kHeight) *
-                                           Eigen::Translation3d(0.0, 0.0, kHeight);
+    const Eigen::Isometry3d T_map_sensor =
+        simulation::inSpace(simulation_.carrier().T_map_base(time)) *
+        simulation_.carrier().bodyMotion(time).outOfPlane(kHeight) *
+        Eigen::Translation3d(0.0, 0.0, kHeight);
     const Eigen::Vector3d direction(scan.geometry()->cosines()[beam],
                                     scan.geometry()->sines()[beam], 0.0);
     const auto hit =

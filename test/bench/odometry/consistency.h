@@ -43,16 +43,16 @@ class ConsistencyRun {
     scanner.noise.sigma = 0.01;
     simulation::Mounting mounting;
     mounting.z = 0.3;
-    simulation_.addScanner(scanner, mounting);
+    simulation_.carrier().addScanner(scanner, mounting);
     auto path = simulation::Path::readFile(SIGHTLINE_SOURCE_DIR "/config/paths/floor_tour.yaml");
     path.wait = 0.0;
-    simulation_.follow(path);
+    simulation_.carrier().follow(path);
   }
 
   void run(Consistency& sum) {
     constexpr std::int64_t kEnd = 50'000'000'000;  // ns: it has arrived
     while (simulation_.time() < kEnd) {
-      for (const auto& sweep : simulation_.step()) score(sweep.scan, sum);
+      for (const auto& sweep : simulation_.step().sweeps) score(sweep.scan, sum);
     }
   }
 
@@ -61,7 +61,7 @@ class ConsistencyRun {
   static inline const Pose2 kStart{-2.2, 4.6, 0.0};
 
   void score(const scan::Scan& scan, Consistency& sum) {
-    const Pose2 truth = simulation_.T_map_base(scan.stamp);
+    const Pose2 truth = simulation_.carrier().T_map_base(scan.stamp);
     const auto update = reckoner_.update(scan, Pose2());
     if (update && update->state != dead_reckoning::MatchState::kInitial) {
       const double nees = logs::nees(update->step, geometry::between(before_, truth));

@@ -87,10 +87,11 @@ inline LogRun runLog(const ScanLog& log, const LogRunOptions& options) {
   LogRun run;
   for (std::size_t i = 0; i < log.size(); i += options.stride) {
     const scan::Scan scan = log.scan(i);
-    pipeline::OdometryAids aids;
-    if (options.wheels) aids.T_odom_base = log.wheelsAt(scan.stamp);
+    pipeline::LocatedScan located;
+    located.scan = scan;
+    if (options.wheels) located.T_odom_base = log.wheelsAt(scan.stamp);
     const auto begin = std::chrono::steady_clock::now();
-    const auto update = odometry.update(scan, geometry::Pose2(), aids);
+    const auto update = odometry.update(located);
     const std::chrono::duration<double, std::micro> spent =
         std::chrono::steady_clock::now() - begin;
     if (!update) continue;

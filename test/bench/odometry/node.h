@@ -30,11 +30,11 @@ inline std::vector<scan::Scan> tourOfTheFloor(std::size_t scans) {
   profile.rate = 10.0;
   simulation::Mounting mounting;
   mounting.z = 0.4;
-  simulation.addScanner(profile, mounting);
-  simulation.follow(simulation::Path::readFile(source + "/config/paths/floor_tour.yaml"));
+  simulation.carrier().addScanner(profile, mounting);
+  simulation.carrier().follow(simulation::Path::readFile(source + "/config/paths/floor_tour.yaml"));
   std::vector<scan::Scan> tour;
   while (tour.size() < scans) {
-    for (auto& sweep : simulation.step()) tour.push_back(std::move(sweep.scan));
+    for (auto& sweep : simulation.step().sweeps) tour.push_back(std::move(sweep.scan));
   }
   return tour;
 }
@@ -48,8 +48,8 @@ inline void measureOdometryNode() {
     messages.push_back(bridge::toMessage(scan));
   }
   const NodeLoad load = measureNode<sensor_msgs::LaserScan, nav_msgs::Odometry>(
-      {SIGHTLINE_PROGRAMS "/laser_odometry", "_mounting_timeout:=0"}, "scan", "laser_odom",
-      messages, kRate, static_cast<double>(kScans) / kRate);
+      {SIGHTLINE_PROGRAMS "/laser_odometry", "_start_patience:=0"}, "scan", "laser_odom", messages,
+      kRate, static_cast<double>(kScans) / kRate);
   print("odometry.node.answered",
         100.0 * static_cast<double>(load.latencies_ms.size()) / static_cast<double>(kScans), "%");
   print("odometry.node.latency_median_ms", median(load.latencies_ms), "ms");

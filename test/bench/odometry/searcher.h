@@ -21,14 +21,15 @@ namespace sightline::bench {
 
 class SearcherCheck {
  public:
-  void add(const dead_reckoning::Sweep& reference, const dead_reckoning::Sweep& sweep) {
+  void add(const dead_reckoning::SurfaceScan& reference,
+           const dead_reckoning::SurfaceScan& surfaces) {
     constexpr double kHalf = 1.28;        // m
     constexpr double kResolution = 0.02;  // m
     const dead_reckoning::HistogramConfig config;
-    const double heading = headingBetween(reference, sweep);
+    const double heading = headingBetween(reference, surfaces);
     std::vector<Eigen::Vector2d> points;
     const Eigen::Matrix2d rotation = geometry::Pose2(0.0, 0.0, heading).rotation();
-    for (const auto& point : sweep.points) points.push_back(rotation * point.position);
+    for (const auto& point : surfaces.points) points.push_back(rotation * point.position);
     field_.draw(reference.points, dead_reckoning::fieldDistance(config.max_distance, kHalf));
     const auto cost = dead_reckoning::translationCost(field_, points, config.max_distance);
     const auto found =
@@ -47,14 +48,14 @@ class SearcherCheck {
   }
 
  private:
-  static double headingBetween(const dead_reckoning::Sweep& reference,
-                               const dead_reckoning::Sweep& sweep) {
+  static double headingBetween(const dead_reckoning::SurfaceScan& reference,
+                               const dead_reckoning::SurfaceScan& surfaces) {
     constexpr std::size_t kBins = 360;
     constexpr std::size_t kSkip = 20;    // beams
     constexpr double kHalfWidth = 0.35;  // rad
     const auto candidates = dead_reckoning::correlateHistograms(
         dead_reckoning::angleHistogram(reference.points, kSkip, kBins),
-        dead_reckoning::angleHistogram(sweep.points, kSkip, kBins), 0.0, kHalfWidth);
+        dead_reckoning::angleHistogram(surfaces.points, kSkip, kBins), 0.0, kHalfWidth);
     return candidates.empty() ? 0.0 : candidates.front().heading;
   }
 
@@ -66,12 +67,12 @@ class SearcherCheck {
 
 inline void measureSearcher(const ScanLog& log) {
   SearcherCheck check;
-  const auto sweepAt = [&](std::size_t i) {
-    return dead_reckoning::readSweep(log.scan(i), geometry::Pose2(), Eigen::Vector3d::Zero());
+  const auto surfacesAt = [&](std::size_t i) {
+    return dead_reckoning::readSurfaces(log.scan(i), geometry::Pose2(), Eigen::Vector3d::Zero());
   };
   constexpr std::size_t kApart = 4;  // scans
   for (std::size_t i = 0; i + kApart < log.size(); i += 10)
-    check.add(sweepAt(i), sweepAt(i + kApart));
+    check.add(surfacesAt(i), surfacesAt(i + kApart));
   check.print();
 }
 

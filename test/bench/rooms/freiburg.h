@@ -5,10 +5,10 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <rosbag/bag.h>
 
-#include "sightline/bridge/bag_estimators.h"
+#include "sightline/bridge/bag_feed.h"
 #include "sightline/bridge/bag_from_carmen.h"
+#include "sightline/bridge/recorded_estimates.h"
 #include "sightline/logs/trajectory_error.h"
 #include "temporary_folder.h"
 
@@ -24,19 +24,18 @@ inline logs::Trajectory trackFreiburg(const std::string& log) {
   options.odometry_delay = 0.12;
   bridge::writeCarmenBag(logs::readCarmenLog(log), options, folder.path("in.bag"));
   const auto config =
-      pipeline::OfflineConfig::readFile(SIGHTLINE_SOURCE_DIR "/config/offline/fr079.yaml");
-  bridge::BagScans scans(folder.path("in.bag"), config, true);
-  rosbag::Bag out(folder.path("out.bag"), rosbag::bagmode::Write);
-  bridge::BagRooms rooms(config, out, folder.path("rooms.tum"));
-  bridge::BagScans::Visitor visitor;
-  visitor.scan = [&](const bridge::LocatedScan& located, const ros::Time& now) {
-    rooms.process(located, now);
+      pipeline::EstimatorsConfig::readFile(SIGHTLINE_SOURCE_DIR "/config/offline/fr079.yaml");
+  bridge::BagFeed feed({folder.path("in.bag")}, config, {});
+  bridge::RecordedEstimates estimates(config, {false, true, false}, folder.path(""));
+  bridge::BagFeed::Visitor visitor;
+  visitor.scan = [&](pipeline::LocatedScan located, const ros::Time& now) {
+    estimates.take(std::move(located), now);
   };
   visitor.message = [](const rosbag::MessageInstance&) {};
   visitor.progress = [](double) {};
-  scans.read(visitor);
-  rooms.finish();
-  for (const std::string& line : rooms.summary()) fmt::print("# fr079: {}\n", line);
+  feed.read(visitor);
+  estimates.close();
+  for (const std::string& line : estimates.summary()) fmt::print("# fr079: {}\n", line);
   return logs::readTrajectory(folder.path("rooms.tum"));
 }
 

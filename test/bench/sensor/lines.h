@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
+#include <random>
 #include <string>
 
 #include <Eigen/Cholesky>
 
 #include "bench/figures.h"
+#include "sightline/geometry/statistics.h"
 #include "sightline/lines/line_extractor.h"
 #include "sightline/simulation/active_sensor.h"
 
@@ -36,36 +39,96 @@ inline world::World whiteWall(const WallView& view) {
   return world;
 }
 
+/// Encoder of the head, where it is coarse: standard deviation of each beam's angle.
+constexpr double kHeadJitter = geometry::radians(0.36);
+
+/// Takes one scan after another of a wall.
+class WallScans {
+ public:
+  WallScans(const simulation::ActiveSensorProfile& profile, const WallView& view)
+      : profile_(profile), view_(view), ranger_(profile.calibrated()), world_(whiteWall(view)) {}
+
+  triangulation::RawScan take(std::uint64_t seed) const {
+    simulation::ActiveSensor sensor(profile_, seed);
+    if (view_.rate != 0.0) sensor.command({motion::HeadCommand::Mode::kRate, 0.0, view_.rate});
+    const Eigen::Isometry3d T_map_mount(Eigen::Translation3d(0.0, 0.0, 1.0));
+    const auto two_scans = static_cast<std::int64_t>(2e9 * profile_.sensor.scan.scanPeriod());
+    return sensor.advance(world_, two_scans, [&](std::int64_t) { return T_map_mount; }).back();
+  }
+  scan::Scan range(const triangulation::RawScan& raw) const { return ranger_.range(raw).scan; }
+  Eigen::Vector2d origin() const { return profile_.sensor.origin.position(); }
+
+  /// Squared error of the scan's only line in standard deviations.
+  std::optional<double> nees(const scan::Scan& scan, double head_angle) {
+    const auto& segments = extractor_.extract(scan);
+    if (segments.size() != 1) return std::nullopt;
+    const geometry::Pose2 T_mount_projection =
+        geometry::Pose2(0.0, 0.0, head_angle) * geometry::Pose2(origin(), 0.0);
+    const auto line = geometry::transform(T_mount_projection, segments[0].line);
+    const Eigen::Vector2d error =
+        geometry::difference(line, {view_.rho, view_.phi, Eigen::Matrix2d::Zero()});
+    return error.dot(line.covariance.ldlt().solve(error));
+  }
+
+ private:
+  const simulation::ActiveSensorProfile& profile_;
+  const WallView& view_;
+  triangulation::Ranger ranger_;
+  world::World world_;
+  lines::LineExtractor extractor_;
+};
+
+/// NEES of those that are there, their mean and how many are within the gate of 95 %.
+struct NeesSum {
+  double sum = 0.0;
+  int lines = 0;
+  int inside = 0;
+
+  void add(const std::optional<double>& nees) {
+    if (!nees) return;
+    sum += *nees;
+    ++lines;
+    if (*nees <= geometry::kChiSquare95Of2) ++inside;
+  }
+};
+
 /// Mean NEES (of 2) over 300 seeds of the lines in single scans; a scan with no or with several of
 /// them counts apart.
 inline void lineConsistency(const simulation::ActiveSensorProfile& profile) {
-  const triangulation::Ranger ranger(profile.calibrated());
-  const geometry::Pose2 T_head_projection(profile.sensor.origin.position(), 0.0);
-  const Eigen::Isometry3d T_map_mount(Eigen::Translation3d(0.0, 0.0, 1.0));
-  const auto two_scans = static_cast<std::int64_t>(2e9 * profile.sensor.scan.scanPeriod());
   for (const WallView& view : kWallViews) {
-    const world::World world = whiteWall(view);
-    const geometry::PolarLine wall{view.rho, view.phi, Eigen::Matrix2d::Zero()};
-    double sum = 0.0;
-    int lines = 0;
+    WallScans scans(profile, view);
+    NeesSum nees;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-      simulation::ActiveSensor sensor(profile, seed);
-      if (view.rate != 0.0) {
-        sensor.command({motion::HeadCommand::Mode::kRate, 0.0, view.rate});
-      }
-      const auto raw =
-          sensor.advance(world, two_scans, [&](std::int64_t) { return T_map_mount; }).back();
-      lines::LineExtractor extractor;
-      const auto& segments = extractor.extract(ranger.range(raw).scan);
-      if (segments.size() != 1) continue;
-      const geometry::Pose2 T_mount_head(0.0, 0.0, raw.head_angles[0]);
-      const auto line = geometry::transform(T_mount_head * T_head_projection, segments[0].line);
-      const Eigen::Vector2d error = geometry::difference(line, wall);
-      sum += error.dot(line.covariance.ldlt().solve(error));
-      ++lines;
+      const auto raw = scans.take(seed);
+      nees.add(scans.nees(scans.range(raw), raw.head_angles[0]));
     }
-    print(std::string("sensor.lines.") + view.name + ".nees", sum / lines, "of_2");
-    std::printf("# sensor.lines.%s: %d of 300 scans have one line\n", view.name, lines);
+    print(std::string("sensor.lines.") + view.name + ".nees", nees.sum / nees.lines, "of_2");
+    std::printf("# sensor.lines.%s: %d of 300 scans have one line\n", view.name, nees.lines);
+  }
+}
+
+/// The same where each beam's head angle is read with an error of its own, which the scan says.
+inline void jitterConsistency(const simulation::ActiveSensorProfile& profile) {
+  for (const WallView& view : kWallViews) {
+    if (view.rate == 0.0) continue;
+    WallScans scans(profile, view);
+    NeesSum nees, ignored;
+    for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+      auto raw = scans.take(seed);
+      std::mt19937_64 random(seed);
+      std::normal_distribution<double> error(0.0, kHeadJitter);
+      for (double& angle : raw.head_angles) angle += error(random);
+      scan::Scan scan = scans.range(raw);
+      ignored.add(scans.nees(scan, raw.head_angles[0]));
+      scan.motion_noise.jitter = kHeadJitter * kHeadJitter;
+      scan.motion_noise.jitter_axis = -scans.origin();
+      nees.add(scans.nees(scan, raw.head_angles[0]));
+    }
+    const std::string name = std::string("sensor.lines.") + view.name + "_jitter.";
+    print(name + "nees", nees.sum / nees.lines, "of_2");
+    print(name + "inside", 100.0 * nees.inside / nees.lines, "%");
+    print(name + "nees_ignored", ignored.sum / ignored.lines, "of_2");
+    std::printf("# %s %d of 1000 scans have one line\n", name.c_str(), nees.lines);
   }
 }
 

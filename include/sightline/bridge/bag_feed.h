@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
+#include <rosbag/view.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "sightline/bridge/feed_input.h"
+#include "sightline/bridge/tf_transforms.h"
+#include "sightline/pipeline/estimators_config.h"
+
+namespace sightline::bridge {
+
+/// Where the scanners sit on the base, as static transforms.
+tf2_msgs::TFMessage mountingTransforms(const pipeline::EstimatorsConfig& config);
+
+/// A feed over recordings, read as one in the order of their time, with little memory however long
+/// they are. Its clock is the time of the bags. Topics are found with and without a leading slash.
+class BagFeed {
+ public:
+  struct Visitor {
+    /// Each located scan; `now` is how far the bags have been read.
+    std::function<void(pipeline::LocatedScan, const ros::Time& now)> scan;
+    /// Each message of a scan or a transform as it stands in the bag.
+    std::function<void(const rosbag::MessageInstance&)> message;
+    /// After each message, the ratio of the bags' time that has been read, 0 to 1.
+    std::function<void(double)> progress;
+  };
+
+  /// Throws config::Error where a file is no whole bag or there are none of a topic's scans.
+  BagFeed(const std::vector<std::string>& paths, const pipeline::EstimatorsConfig& config,
+          const pipeline::FeedNeeds& needs);
+
+  /// Throws config::Error where a bag is damaged.
+  void read(const Visitor& visitor);
+
+  /// Messages on the topics of the scans.
+  std::size_t scans() const;
+  /// How many of them could not be used, by reason.
+  std::map<std::string, std::size_t> dropped() const;
+  /// How many messages of odometry and inertial sensor could not be used, by reason.
+  const std::map<std::string, std::size_t>& refused() const { return refused_; }
+  std::size_t withoutMotion() const;
+  /// From the first to the last scan [s].
+  double duration() const { return (last_scan_ - first_scan_).toSec(); }
+
+ private:
+  void open(const std::string& path);
+  void addScanner(const std::string& topic);
+  template <class Call>
+  void withPath(const std::string& path, const Call& call) const;
+  void readAll(const Visitor& visitor);
+  void take(const rosbag::MessageInstance& instance);
+  void takeScan(std::size_t scanner, const rosbag::MessageInstance& instance);
+  void takeReading(const rosbag::MessageInstance& instance);
+  void deliver(const ros::Time& now, bool at_end, const Visitor& visitor);
+
+  std::deque<rosbag::Bag> bags_;
+  std::string paths_;  // for messages
+  tf2::BufferCore buffer_;
+  TfTransforms transforms_{buffer_};
+  pipeline::ScanFeed feed_;
+  FeedInput input_;
+  std::map<std::string, std::size_t> scanners_;  // by topic without its slash
+  std::vector<std::string> readings_;            // topics of odometry and imu, likewise
+  std::map<std::string, std::size_t> refused_;
+  ros::Time first_scan_;
+  ros::Time last_scan_;
+};
+
+}  // namespace sightline::bridge

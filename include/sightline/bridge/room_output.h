@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "sightline/TrackerStatus.h"
+#include "sightline/bridge/output.h"
+#include "sightline/pipeline/estimators.h"
+
+namespace sightline::bridge {
+
+/// How the pose in the rooms is told.
+struct RoomOutputConfig {
+  bool publish_tf = true;            ///< whether map→odom is broadcast
+  double transform_tolerance = 0.0;  ///< the broadcast is dated this much after the scan [s]
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// The pose in the rooms of a map: `pose`, `tracker_status`, map→odom on tf, the map itself,
+/// latched, on `map`, and markers.
+class RoomOutput {
+ public:
+  RoomOutput(Output& output, const RoomOutputConfig& config, const pipeline::Frames& frames,
+             const pipeline::RoomsConfig& rooms, const world::RoomMap& map);
+
+  /// `has_pose` is whether the tracker has been given a pose. Returns why there is none for this
+  /// scan; empty where there is one.
+  std::string write(const pipeline::Estimates& estimates, bool has_pose);
+  const TrackerStatus& status() const { return status_; }
+  double odometryScale() const { return odometry_scale_; }
+  std::vector<std::string> summary() const;
+
+ private:
+  void writeMap();
+  void writePose(const pipeline::Estimates& estimates);
+  std::string writeNone(const pipeline::Estimates& estimates, bool has_pose);
+
+  RoomOutputConfig config_;
+  pipeline::Frames frames_;
+  const world::RoomMap& map_;
+  double map_resolution_;
+  Port<geometry_msgs::PoseWithCovarianceStamped> pose_;
+  Port<TrackerStatus> status_port_;
+  Port<tf2_msgs::TFMessage> transforms_;
+  Port<nav_msgs::OccupancyGrid> map_port_;
+  Port<visualization_msgs::MarkerArray> markers_;
+  TrackerStatus status_;
+  double odometry_scale_ = 1.0;
+  bool map_is_written_ = false;
+  std::size_t scans_ = 0;
+  std::size_t poses_ = 0;
+  std::size_t lost_ = 0;
+  std::map<std::string, std::size_t> without_pose_;  // by reason
+};
+
+}  // namespace sightline::bridge

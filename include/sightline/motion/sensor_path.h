@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "sightline/geometry/pose2.h"
+#include "sightline/scan/scan_geometry.h"
+
+namespace sightline::motion {
+
+/// Pose of something in a frame that stands still, so many seconds after the stamp of a scan;
+/// nothing where it is not known.
+using PoseAfter = std::function<std::optional<geometry::Pose2>(double)>;
+
+/// Pose at each beam, in the frame at the stamp, of something whose path is known: of constant body
+/// velocity over each stretch of at most 20 ms. Empty where it stood still or all beams are taken
+/// at once; nothing where the path is not known from the stamp to the last beam.
+std::optional<std::vector<geometry::Pose2>> sweepAlong(const PoseAfter& path,
+                                                       const scan::ScanGeometry& geometry);
+
+}  // namespace sightline::motion

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sightline/geometry/pose2.h"
+#include "sightline/motion/odometry_noise.h"
+#include "sightline/scan/motion_noise.h"
+
+namespace sightline::motion {
+
+/// ∂ coordinates of `exp(ξ) · motion` / ∂ξ at ξ = 0: how a twist of the frame that a motion starts
+/// from, ordered x, y, θ, changes the motion's coordinates. Its inverse takes errors of coordinates
+/// to that frame's twists, where a change of frame is the adjoint.
+Eigen::Matrix3d coordinatesByStartTwist(const geometry::Pose2& motion);
+
+/// What odometry leaves unknown of a sensor's motion during a sweep in which its carrier moved, and
+/// the sensor stood still on it: a walk, since the errors of odometry are random walks. The scale's
+/// error is not in it: whoever estimates a pose has that as a state.
+///
+/// @param noise             of the carrier's odometry
+/// @param T_start_end_base  carrier's motion from the first beam to the last, as reported
+/// @param T_base_sensor     mounting of the sensor at the first beam
+scan::MotionNoise sweepNoise(const OdometryNoise& noise, const geometry::Pose2& T_start_end_base,
+                             const geometry::Pose2& T_base_sensor);
+
+}  // namespace sightline::motion

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sightline/geometry/arc.h"
+#include "sightline/geometry/line_segment.h"
+#include "sightline/lines/line_extractor.h"
+#include "sightline/lines/plain_extractor.h"
+#include "sightline/pipeline/estimators_config.h"
+#include "sightline/pipeline/located_scan.h"
+#include "sightline/tracking/room_tracker.h"
+
+namespace sightline::pipeline {
+
+/// Which estimators are to run.
+struct EstimatorSet {
+  bool lines = false;
+  bool rooms = false;
+  bool odometry = false;
+};
+
+/// Lines of one scan, in the scan's frame, level and the right way up.
+struct Lines {
+  std::vector<geometry::LineSegment> segments;
+  std::vector<geometry::Arc> arcs;
+};
+
+/// What the estimators found of one scan; nothing of those that do not run, or refused it.
+struct Estimates {
+  LocatedScan located;  ///< as the estimators saw it: without floor, motion filled in
+  std::optional<Lines> lines;
+  std::optional<tracking::TrackerUpdate> rooms;
+  std::optional<dead_reckoning::DeadReckoningUpdate> odometry;
+};
+
+/// Runs the estimators on located scans and hands values from one to another: the floor that the
+/// dead reckoner finds and the motion within the sweep that it knows, to lines and tracker. No
+/// estimator knows another. Not thread-safe.
+class Estimators {
+ public:
+  /// Throws config::Error.
+  Estimators(const EstimatorsConfig& config, const EstimatorSet& set);
+
+  /// Takes scans in the order of the feed.
+  Estimates take(LocatedScan located);
+
+  /// For commands and settings from outside; null where that estimator does not run.
+  tracking::RoomTracker* rooms() { return rooms_ ? &*rooms_ : nullptr; }
+  ScanOdometry* odometry() { return set_.odometry ? &*odometry_ : nullptr; }
+  /// Throws config::Error.
+  void configureLines(const LinesConfig& config);
+
+ private:
+  struct Extractor {
+    lines::LineExtractor full;
+    lines::PlainExtractor plain;
+  };
+
+  void restart();
+  void removeFloor(LocatedScan& located) const;
+  void reckon(Estimates& estimates);
+  void addMotion(Estimates& estimates) const;
+  void extract(Estimates& estimates);
+  void track(Estimates& estimates);
+  Extractor& extractorOf(std::size_t scanner);
+
+  EstimatorsConfig config_;
+  EstimatorSet set_;
+  std::vector<Extractor> extractors_;  // one a scanner, whose geometry it keeps
+  std::optional<tracking::RoomTracker> rooms_;
+  std::optional<ScanOdometry> odometry_;
+  bool is_mounting_known_ = false;  // of the scans that the odometry took
+};
+
+}  // namespace sightline::pipeline

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sightline/config/fields.h"
+#include "sightline/geometry/pose2.h"
+#include "sightline/lines/line_extractor_config.h"
+#include "sightline/motion/floor.h"
+#include "sightline/pipeline/feed_config.h"
+#include "sightline/pipeline/scan_odometry.h"
+#include "sightline/tracking/tracker_config.h"
+
+namespace sightline::pipeline {
+
+enum class LineMethod {
+  kFull,   ///< lines::LineExtractor
+  kPlain,  ///< lines::PlainExtractor
+};
+
+/// Settings of the line extractor.
+struct LinesConfig {
+  LineMethod method = LineMethod::kFull;
+  lines::LineExtractorConfig extractor;
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// Settings of the room tracker.
+struct RoomsConfig {
+  std::string map;                                ///< path of the rooms file
+  std::optional<geometry::Pose2> initial_pose;    ///< T_map_base at the first scan
+  std::array<double, 2> initial_sigma{0.3, 0.1};  ///< position, heading [m, rad]
+  double map_resolution = 0.05;                   ///< of the occupancy grid [m]
+  tracking::TrackerConfig tracker;
+
+  void visit(config::FieldVisitor& visitor);
+  /// The start pose with its uncertainty; it has to be there.
+  geometry::UncertainPose2 start() const;
+};
+
+/// Where the scans come from and how they are completed: what all estimators share.
+struct InputConfig {
+  std::vector<std::string> scans;        ///< topics of sensor_msgs/LaserScan
+  std::vector<std::string> range_scans;  ///< topics of sightline/RangeScan
+  std::string odometry_topic = "odom";
+  std::string imu_topic = "imu";
+  FeedConfig feed;
+  bool leans = false;  ///< whether the scanner does not keep level: it sees floor and ceiling
+  motion::FloorConfig floor;  ///< of a scanner that leans
+
+  void visit(config::FieldVisitor& visitor);
+  /// All topics of scans, lasers first; `scan` where none are named.
+  std::vector<std::string> topics() const;
+  std::vector<std::string> laserTopics() const;
+};
+
+/// What the estimators are to be set to, live and over a recording.
+///
+/// ```yaml
+/// scans: [scan]                                # topics
+/// range_scans: [range_scan]                    # topics, of sensors that tell their variances and
+///                                              # how their head turned
+/// frames: {map: map, odom: odom, base: base_link}
+/// mountings: {laser: [0.2, 0.0, 0.0]}          # x, y, yaw of a scanner's frame on the base,
+///                                              # m, m, rad, where the recording does not tell
+/// noise: {sigma: 0.01}                         # as scan::NoiseModel; further keys of FeedConfig
+/// and leans: false                                 # InputConfig stand beside it lines:
+/// {min_length: 0.5}                     # as LinesConfig rooms: # where the room tracker is wanted
+///   map: rooms.yaml                            # relative to this file
+///   initial_pose: [0.0, 0.0, 0.0]              # m, m, rad
+///   tracker: {neighbours: true}                # as tracking::TrackerConfig
+/// carrier: ../carriers/body_worn.yaml          # where odometry from scans is wanted, by this
+/// odometry: {max_gap: 1.0}                     # or by this, as ScanOdometryConfig; what stands
+/// here
+///                                              # goes before what the carrier's file says
+/// ```
+struct EstimatorsConfig {
+  InputConfig input;
+  Frames frames;
+  std::map<std::string, geometry::Pose2> mountings;  ///< T_base_sensor by frame
+  LinesConfig lines;
+  std::optional<RoomsConfig> rooms;
+  std::optional<ScanOdometryConfig> odometry;
+  std::string carrier;  ///< path of a file with settings that depend on who carries the scanner
+
+  void visit(config::FieldVisitor& visitor);
+  /// Throws config::Error with file, line and key.
+  static EstimatorsConfig readFile(const std::string& path);
+};
+
+}  // namespace sightline::pipeline

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "sightline/geometry/pose2.h"
+#include "sightline/motion/floor.h"
+#include "sightline/scan/scan.h"
+
+namespace sightline::pipeline {
+
+/// A scan with all that is known of how it was taken. What is missing is not known.
+struct LocatedScan {
+  std::size_t scanner = 0;  ///< in the order in which scanners were added
+  /// As a level sensor the right way up sees it, with the sensor's motion within the sweep where
+  /// that is known.
+  scan::Scan scan;
+  bool upside_down = false;   ///< whether the sensor hangs so, and the scan was mirrored
+  bool motion_known = false;  ///< within the sweep
+  /// At the stamp: of a turning sensor, that of the first beam.
+  std::optional<geometry::Pose2> T_base_sensor;
+  std::optional<geometry::Pose2> T_odom_base;  ///< by wheels, at the stamp
+  std::string
+      no_odometry;  ///< why T_base_sensor or T_odom_base are not known; empty where both are
+  bool before_odometry =
+      false;                   ///< whether that is since the scan is from before the odometry began
+  std::optional<double> turn;  ///< by a gyroscope, since the scan before [rad]
+  std::optional<motion::SweepAttitude> attitude;  ///< of the sensor, by an inertial sensor
+  /// The clock was set back: this scan is older than the ones before it, and begins anew.
+  bool clock_restarted = false;
+};
+
+}  // namespace sightline::pipeline

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sightline/pipeline/scan_locator.h"
+
+namespace sightline::pipeline {
+
+/// What became of one scan.
+struct FeedResult {
+  std::size_t scanner = 0;
+  std::int64_t stamp = 0;              ///< [ns]
+  std::optional<LocatedScan> located;  ///< nothing where it was dropped
+  std::string reason;                  ///< why it was dropped
+};
+
+/// What became of the scans of one scanner.
+struct FeedCounts {
+  std::size_t arrived = 0;
+  std::size_t located = 0;
+  std::size_t without_motion = 0;  ///< located, but the motion within the sweep is not known
+  std::map<std::string, std::size_t> dropped;  ///< by reason
+};
+
+/// Takes scans as they arrive and gives them back in the order of their stamps, each completed by
+/// transforms, odometry and an inertial sensor, or with the reason why it is not used. A scan waits
+/// for what belongs to it as long as the settings' patience lasts.
+///
+/// Live nodes, recordings and tests use this class alike, with a clock of their own: `now` is any
+/// time that goes on evenly [ns]. Not thread-safe.
+class ScanFeed {
+ public:
+  /// The transforms have to live as long. Throws config::Error.
+  ScanFeed(const FeedConfig& config, const Frames& frames, const FeedNeeds& needs,
+           const Transforms& transforms);
+
+  /// Returns the scanner's number, from 0 on.
+  std::size_t addScanner();
+  /// A scan gets its variances by the settings' noise model; a range scan brings its own.
+  void add(std::size_t scanner, scan::Scan scan, std::int64_t now);
+  void add(std::size_t scanner, motion::RangeScan range_scan, std::int64_t now);
+  /// Counts a message that is no scan.
+  void refuse(std::size_t scanner, const std::string& reason);
+  void addOdometry(std::int64_t stamp, const geometry::Pose2& T_odom_base);
+  void addImu(const ImuReading& reading);
+
+  /// The next scan that is settled; nothing where there is none, or it may wait.
+  std::optional<FeedResult> next(std::int64_t now);
+  /// The next scan where nothing more will come.
+  std::optional<FeedResult> flush();
+
+  const FeedCounts& counts(std::size_t scanner) const { return counts_[scanner]; }
+  std::size_t scanners() const { return counts_.size(); }
+
+ private:
+  void enqueue(ArrivedScan arrived);
+  std::optional<FeedResult> settle(const Patience& patience);
+  FeedResult finish(const ArrivedScan& arrived, ScanLocator::Outcome outcome);
+  bool isSetBack(std::int64_t stamp) const;
+
+  FeedConfig config_;
+  ScanLocator locator_;
+  std::deque<ArrivedScan> waiting_;  // in the order of their stamps
+  std::vector<FeedCounts> counts_;
+  std::optional<std::int64_t> before_;  // stamp of the last scan that was located
+  bool clock_restarted_ = false;        // and no scan has been located since
+};
+
+}  // namespace sightline::pipeline

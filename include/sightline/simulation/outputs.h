@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sightline/geometry/attitude.h"
+#include "sightline/geometry/pose2.h"
+#include "sightline/geometry/twist2.h"
+#include "sightline/motion/range_scan.h"
+#include "sightline/scan/scan.h"
+#include "sightline/simulation/robot.h"
+
+namespace sightline::simulation {
+
+/// A sweep that has just ended. Robots and sensors count in the order in which they were added.
+struct FinishedSweep {
+  std::size_t robot = 0;
+  std::size_t scanner = 0;
+  scan::Scan scan;
+};
+
+/// A scan of an active sensor that has just ended.
+struct FinishedRangeScan {
+  std::size_t robot = 0;
+  std::size_t sensor = 0;
+  motion::RangeScan range_scan;
+};
+
+/// What the head of an active sensor reports, as of its last sample.
+struct ReportedHead {
+  std::size_t robot = 0;
+  std::size_t sensor = 0;
+  std::int64_t stamp = 0;  ///< [ns]
+  double angle = 0.0;      ///< of its joint [rad]
+  double rate = 0.0;       ///< [rad/s]
+};
+
+/// What the wheels report, and what is true.
+struct ReportedState {
+  std::size_t robot = 0;
+  std::int64_t stamp = 0;           ///< [ns]
+  geometry::UncertainPose2 pose;    ///< T_odom_base
+  geometry::UncertainTwist2 twist;  ///< mean since the last report
+  geometry::Pose2 T_map_base;       ///< true pose
+  Velocity velocity;                ///< true velocity
+};
+
+/// What a perfect inertial sensor reads that sits straight on the base.
+struct ReportedMotion {
+  std::size_t robot = 0;
+  std::int64_t stamp = 0;       ///< [ns]
+  geometry::Attitude attitude;  ///< of the base
+  double turn_rate = 0.0;       ///< of its heading, mean over the step [rad/s]
+};
+
+/// Everything that was measured within a step, by robot, sensor and time.
+struct Outputs {
+  std::vector<FinishedSweep> sweeps;
+  std::vector<FinishedRangeScan> range_scans;
+  std::vector<ReportedHead> heads;      ///< one a step and active sensor
+  std::vector<ReportedState> states;    ///< at the rate of each robot's odometry
+  std::vector<ReportedMotion> motions;  ///< one a step and robot
+};
+
+}  // namespace sightline::simulation

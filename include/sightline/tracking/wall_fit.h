@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sightline/geometry/polar_line.h"
+
+namespace sightline::tracking {
+
+/// Where a wall is looked for (jensfelt fig. 4): around the predicted wall, half as wide as
+/// `opening` at the foot of the sensor's perpendicular and widening by `angle` to both sides along
+/// it.
+struct GateSize {
+  double opening = 0.0;  ///< δ [m], half width
+  double angle = 0.0;    ///< γ [rad]
+};
+
+/// Why a wall did not correct the pose.
+enum class WallRefusal {
+  kNone,          ///< it did
+  kTooFewBeams,   ///< fewer beams in its gate, or near the line, than make a wall
+  kTooShort,      ///< the beams cover too short a stretch
+  kUndetermined,  ///< the beams do not determine a line
+  kOutsideGate,   ///< its normalised innovation squared is too large
+};
+
+/// A line fitted to the beams that met a wall.
+struct FittedLine {
+  geometry::PolarLine line;                 ///< in the base frame
+  std::vector<std::size_t> accepted_beams;  ///< that it was fitted to
+  /// ∂(ρ, φ) / ∂(twist of the base frame over the sweep, ordered x, y, θ).
+  Eigen::Matrix<double, 2, 3> motion_jacobian = Eigen::Matrix<double, 2, 3>::Zero();
+};
+
+/// What was found of one wall in one scan.
+struct WallFit {
+  std::size_t room = 0;
+  std::size_t wall = 0;
+  GateSize gate;
+  std::size_t beams_in_gate = 0;
+  std::optional<FittedLine> fit;
+  WallRefusal refusal = WallRefusal::kTooFewBeams;  ///< why there is no fit; kNone where there is
+
+  std::size_t acceptedBeams() const { return fit ? fit->accepted_beams.size() : 0; }
+};
+
+/// How far a fitted line is from where the pose predicted it.
+struct WallInnovation {
+  Eigen::Vector2d value;  ///< (ρ, φ) measured less predicted [m, rad]
+  double nis = 0.0;       ///< normalised innovation squared, 2 degrees of freedom
+};
+
+/// What one wall did to one estimate of the pose.
+struct WallUpdate : WallFit {
+  std::optional<WallInnovation> innovation;  ///< where there is a fit
+
+  WallUpdate() = default;
+  explicit WallUpdate(WallFit found) : WallFit(std::move(found)) {}
+  /// Whether it corrected the pose.
+  bool accepted() const { return refusal == WallRefusal::kNone; }
+};
+
+}  // namespace sightline::tracking

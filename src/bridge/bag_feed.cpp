@@ -1,0 +1,180 @@
+#include "sightline/bridge/bag_feed.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "sightline/bridge/bad_message.h"
+#include "sightline/bridge/pose_conversion.h"
+#include "sightline/bridge/time.h"
+#include "sightline/config/error.h"
+
+namespace sightline::bridge {
+
+namespace {
+
+bool isScan(const std::string& type) {
+  namespace traits = ros::message_traits;
+  return type == traits::datatype<sensor_msgs::LaserScan>() ||
+         type == traits::datatype<RangeScan>();
+}
+
+// Topics that hold scans, as they stand in the bags.
+std::set<std::string> scanTopics(rosbag::View& view) {
+  std::set<std::string> topics;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    if (isScan(connection->datatype)) topics.insert(connection->topic);
+  }
+  return topics;
+}
+
+}  // namespace
+
+tf2_msgs::TFMessage mountingTransforms(const pipeline::EstimatorsConfig& config) {
+  tf2_msgs::TFMessage message;
+  for (const auto& [frame, T_base_sensor] : config.mountings) {
+    message.transforms.push_back(
+        toTransformMessage(0, config.frames.base, withoutSlash(frame), T_base_sensor));
+  }
+  return message;
+}
+
+BagFeed::BagFeed(const std::vector<std::string>& paths, const pipeline::EstimatorsConfig& config,
+                 const pipeline::FeedNeeds& needs)
+    : paths_(fmt::format("{}", fmt::join(paths, ", "))),
+      feed_(config.input.feed, config.frames, needs, transforms_),
+      input_(feed_, transforms_, config.frames.base),
+      readings_{withoutSlash(config.input.odometry_topic), withoutSlash(config.input.imu_topic)} {
+  for (const auto& transform : mountingTransforms(config).transforms) {
+    buffer_.setTransform(transform, "settings", /*is_static=*/true);
+  }
+  for (const std::string& path : paths) open(path);
+  for (const std::string& topic : config.input.topics()) addScanner(topic);
+}
+
+// rosbag does not say which file is at fault.
+template <class Call>
+void BagFeed::withPath(const std::string& path, const Call& call) const {
+  try {
+    call();
+  } catch (const ros::Exception& fault) {
+    throw config::Error(path, 0, "", fault.what());
+  }
+}
+
+void BagFeed::open(const std::string& path) {
+  bags_.emplace_back();
+  withPath(path, [&] { bags_.back().open(path, rosbag::bagmode::Read); });
+}
+
+void BagFeed::addScanner(const std::string& topic) {
+  std::set<std::string> known;
+  for (const rosbag::Bag& bag : bags_) {
+    rosbag::View view(bag);
+    known.merge(scanTopics(view));
+  }
+  const std::string name = withoutSlash(topic);
+  if (known.count(name) == 0 && known.count("/" + name) == 0) {
+    throw config::Error(
+        paths_, 0, "",
+        fmt::format("no scans on /{}; there are: {}", name,
+                    known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+  }
+  scanners_[name] = input_.addScanner();
+}
+
+void BagFeed::read(const Visitor& visitor) {
+  withPath(paths_, [&] { readAll(visitor); });
+}
+
+void BagFeed::readAll(const Visitor& visitor) {
+  std::vector<std::string> names{"tf", "tf_static"};
+  for (const auto& [topic, scanner] : scanners_) names.push_back(topic);
+  names.insert(names.end(), readings_.begin(), readings_.end());
+  std::vector<std::string> topics = names;
+  for (const std::string& name : names) topics.push_back("/" + name);
+  rosbag::View view;
+  for (const rosbag::Bag& bag : bags_) view.addQuery(bag, rosbag::TopicQuery(topics));
+  const ros::Time begin = view.getBeginTime();
+  const double length = std::max((view.getEndTime() - begin).toSec(), 1e-9);
+  for (const rosbag::MessageInstance& instance : view) {
+    visitor.message(instance);
+    take(instance);
+    deliver(instance.getTime(), /*at_end=*/false, visitor);
+    visitor.progress((instance.getTime() - begin).toSec() / length);
+  }
+  deliver(view.getEndTime(), /*at_end=*/true, visitor);
+}
+
+void BagFeed::take(const rosbag::MessageInstance& instance) {
+  const std::string topic = withoutSlash(instance.getTopic());
+  const auto scanner = scanners_.find(topic);
+  if (scanner != scanners_.end()) return takeScan(scanner->second, instance);
+  if (const auto transforms = instance.instantiate<tf2_msgs::TFMessage>()) {
+    for (auto& transform : transforms->transforms) {
+      transform.header.frame_id = withoutSlash(transform.header.frame_id);
+      transform.child_frame_id = withoutSlash(transform.child_frame_id);
+      buffer_.setTransform(transform, "bag", topic == "tf_static");
+    }
+    return;
+  }
+  try {
+    takeReading(instance);
+  } catch (const BadMessage& fault) {
+    ++refused_[topic + ": " + fault.what()];
+  }
+}
+
+void BagFeed::takeScan(std::size_t scanner, const rosbag::MessageInstance& instance) {
+  if (first_scan_.isZero()) first_scan_ = instance.getTime();
+  last_scan_ = instance.getTime();
+  const std::int64_t now = nanoseconds(instance.getTime());
+  try {
+    if (const auto laser = instance.instantiate<sensor_msgs::LaserScan>()) {
+      input_.take(scanner, *laser, now);
+    } else if (const auto range_scan = instance.instantiate<RangeScan>()) {
+      input_.take(scanner, *range_scan, now);
+    }
+  } catch (const BadMessage&) {
+    // The feed has counted it with its reason.
+  }
+}
+
+void BagFeed::takeReading(const rosbag::MessageInstance& instance) {
+  if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
+    input_.take(*odometry);
+  } else if (const auto imu = instance.instantiate<sensor_msgs::Imu>()) {
+    input_.take(*imu);
+  }
+}
+
+void BagFeed::deliver(const ros::Time& now, bool at_end, const Visitor& visitor) {
+  const auto next = [&] { return at_end ? feed_.flush() : feed_.next(nanoseconds(now)); };
+  while (auto result = next()) {
+    if (result->located) visitor.scan(std::move(*result->located), now);
+  }
+}
+
+std::size_t BagFeed::scans() const {
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < feed_.scanners(); ++i) sum += feed_.counts(i).arrived;
+  return sum;
+}
+
+std::size_t BagFeed::withoutMotion() const {
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < feed_.scanners(); ++i) sum += feed_.counts(i).without_motion;
+  return sum;
+}
+
+std::map<std::string, std::size_t> BagFeed::dropped() const {
+  std::map<std::string, std::size_t> sum;
+  for (std::size_t i = 0; i < feed_.scanners(); ++i) {
+    for (const auto& [reason, count] : feed_.counts(i).dropped) sum[reason] += count;
+  }
+  return sum;
+}
+
+}  // namespace sightline::bridge

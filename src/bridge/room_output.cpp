@@ -1,0 +1,96 @@
+#include "sightline/bridge/room_output.h"
+
+#include <fmt/format.h>
+
+#include "sightline/bridge/room_markers.h"
+#include "sightline/bridge/room_messages.h"
+#include "sightline/bridge/time.h"
+#include "sightline/world/occupancy.h"
+
+namespace sightline::bridge {
+
+void RoomOutputConfig::visit(config::FieldVisitor& visitor) {
+  visitor.flag("publish_tf", publish_tf, "broadcast map_frame to odom_frame");
+  visitor.number(
+      "transform_tolerance", transform_tolerance,
+      {"s",
+       {0.0, 10.0},
+       "the broadcast is dated this much after the scan, so that it serves until the next one"});
+}
+
+RoomOutput::RoomOutput(Output& output, const RoomOutputConfig& config,
+                       const pipeline::Frames& frames, const pipeline::RoomsConfig& rooms,
+                       const world::RoomMap& map)
+    : config_(config),
+      frames_(frames),
+      map_(map),
+      map_resolution_(rooms.map_resolution),
+      pose_(output.open<geometry_msgs::PoseWithCovarianceStamped>("pose")),
+      status_port_(output.open<TrackerStatus>("tracker_status")),
+      transforms_(output.openTransforms()),
+      map_port_(output.open<nav_msgs::OccupancyGrid>("map", /*latched=*/true)) {
+  if (output.isBag()) return;
+  markers_ = output.open<visualization_msgs::MarkerArray>("room_markers");
+  writeMap();
+}
+
+// Into a bag with the first scan, whose time it is given.
+void RoomOutput::writeMap() {
+  if (map_is_written_) return;
+  map_port_.write(toGridMessage(world::drawRooms(map_, map_resolution_), frames_.map));
+  map_is_written_ = true;
+}
+
+std::string RoomOutput::write(const pipeline::Estimates& estimates, bool has_pose) {
+  writeMap();
+  ++scans_;
+  if (!estimates.rooms) return writeNone(estimates, has_pose);
+  writePose(estimates);
+  return "";
+}
+
+void RoomOutput::writePose(const pipeline::Estimates& estimates) {
+  const tracking::TrackerUpdate& update = *estimates.rooms;
+  ++poses_;
+  odometry_scale_ = update.odometry_scale;
+  if (update.state == tracking::TrackerState::kLost) ++lost_;
+  pose_.write(toPoseMessage(update, frames_.map));
+  status_ = toStatusMessage(update, map_, frames_.map);
+  status_port_.write(status_);
+  if (config_.publish_tf) {
+    tf2_msgs::TFMessage transforms;
+    transforms.transforms = {toMapOdom(update, frames_.map, frames_.odom)};
+    transforms.transforms[0].header.stamp += ros::Duration(config_.transform_tolerance);
+    transforms_.write(transforms);
+  }
+  if (markers_.is_wanted && markers_.is_wanted()) {
+    markers_.write(roomMarkers(update, map_, estimates.located.scan,
+                               *estimates.located.T_base_sensor, frames_.map));
+  }
+}
+
+// One status for one scan, also while there is no pose yet.
+std::string RoomOutput::writeNone(const pipeline::Estimates& estimates, bool has_pose) {
+  const std::string& no_odometry = estimates.located.no_odometry;
+  const std::string reason = !no_odometry.empty() ? no_odometry
+                             : has_pose           ? "older than the last scan used"
+                                                  : "no pose yet";
+  ++without_pose_[reason];
+  if (has_pose) return reason;
+  status_ = TrackerStatus();
+  status_.header.stamp = timeOf(estimates.located.scan.stamp);
+  status_.header.frame_id = frames_.map;
+  status_port_.write(status_);
+  return reason;
+}
+
+std::vector<std::string> RoomOutput::summary() const {
+  std::vector<std::string> lines{fmt::format(
+      "rooms: {} of {} scans have a pose, {} of them while lost", poses_, scans_, lost_)};
+  for (const auto& [reason, count] : without_pose_) {
+    lines.push_back(fmt::format("rooms: {} scans left out: {}", count, reason));
+  }
+  return lines;
+}
+
+}  // namespace sightline::bridge

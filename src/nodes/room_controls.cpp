@@ -1,0 +1,82 @@
+#include "nodes/room_controls.h"
+
+#include <cmath>
+
+#include <ros/console.h>
+
+#include "sightline/bridge/bad_message.h"
+#include "sightline/bridge/initial_pose.h"
+#include "sightline/bridge/tracker_settings.h"
+
+namespace sightline::nodes {
+
+RoomControls::RoomControls(ros::NodeHandle node, ros::NodeHandle private_node,
+                           const pipeline::RoomsConfig& config, const std::string& map_frame,
+                           tracking::RoomTracker& tracker, const bridge::RoomOutput& output,
+                           diagnostic_updater::Updater& updater)
+    : config_(config),
+      map_frame_(map_frame),
+      tracker_(tracker),
+      output_(output),
+      reconfigure_(reconfigure_mutex_, ros::NodeHandle(private_node, "tracker")) {
+  updater.add("tracking", this, &RoomControls::report);
+  initial_pose_subscriber_ = node.subscribe("initialpose", 1, &RoomControls::onInitialPose, this);
+  set_room_server_ = private_node.advertiseService("set_room", &RoomControls::onSetRoom, this);
+  inflate_server_ =
+      private_node.advertiseService("inflate_uncertainty", &RoomControls::onInflate, this);
+  reconfigure_.updateConfig(bridge::toReconfigure(config_.tracker));
+  reconfigure_.setCallback([this](RoomTrackerConfig& settings, std::uint32_t) {
+    bridge::applyReconfigure(settings, config_.tracker);
+    tracker_.configure(config_.tracker);
+  });
+}
+
+void RoomControls::onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  try {
+    tracker_.setPose(bridge::readInitialPose(message, map_frame_, config_.initial_sigma));
+    ROS_INFO("tracking starts at (%.2f, %.2f)", message.pose.pose.position.x,
+             message.pose.pose.position.y);
+  } catch (const bridge::BadMessage& fault) {
+    ROS_ERROR("initialpose refused: %s", fault.what());
+  }
+}
+
+bool RoomControls::onSetRoom(SetRoom::Request& request, SetRoom::Response& response) {
+  response.success = tracker_.setRoom(request.room);
+  if (!response.success) response.message = "no room is called '" + request.room + "'";
+  return true;
+}
+
+bool RoomControls::onInflate(InflateUncertainty::Request& request,
+                             InflateUncertainty::Response& response) {
+  response.success = request.position >= 0.0 && request.heading >= 0.0 &&
+                     std::isfinite(request.position) && std::isfinite(request.heading);
+  if (response.success) {
+    tracker_.inflate(request.position, request.heading);
+  } else {
+    response.message = "standard deviations have to be finite and not negative";
+  }
+  return true;
+}
+
+void RoomControls::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  switch (output_.status().state) {
+    case TrackerStatus::TRACKING:
+      status.summary(DiagnosticStatus::OK, "tracking");
+      break;
+    case TrackerStatus::DEGRADED:
+      status.summary(DiagnosticStatus::WARN, "degraded: the pose is vague");
+      break;
+    case TrackerStatus::LOST:
+      status.summary(DiagnosticStatus::ERROR, "lost: the scans do not fit the room");
+      break;
+    default:
+      status.summary(DiagnosticStatus::WARN, "no pose yet: set initial_pose or send initialpose");
+  }
+  status.add("room", output_.status().room);
+  status.add("quality", output_.status().quality);
+  status.add("odometry scale", output_.odometryScale());
+}
+
+}  // namespace sightline::nodes

@@ -1,0 +1,113 @@
+#include "sightline/pipeline/estimators.h"
+
+#include <utility>
+
+#include "sightline/motion/sweep.h"
+
+namespace sightline::pipeline {
+
+using geometry::Pose2;
+
+Estimators::Estimators(const EstimatorsConfig& config, const EstimatorSet& set)
+    : config_(config), set_(set) {
+  config::validate(config_.lines);
+  if (set.rooms) {
+    if (!config_.rooms) throw config::Error("", 0, "rooms", "the settings do not say which");
+    rooms_.emplace(config_.rooms->tracker, world::RoomMap::readFile(config_.rooms->map));
+    if (config_.rooms->initial_pose) rooms_->setPose(config_.rooms->start());
+  }
+  // A scanner that leans is only told from walls by where it has been.
+  if (set.odometry || config_.input.leans) {
+    const auto floor = config_.input.leans ? std::make_optional(config_.input.floor) : std::nullopt;
+    odometry_.emplace(config_.odometry.value_or(ScanOdometryConfig()), floor);
+  }
+}
+
+void Estimators::configureLines(const LinesConfig& config) {
+  config::validate(config);
+  config_.lines = config;
+  extractors_.clear();
+}
+
+Estimates Estimators::take(LocatedScan located) {
+  if (located.clock_restarted) restart();
+  Estimates estimates;
+  estimates.located = std::move(located);
+  removeFloor(estimates.located);
+  if (odometry_) reckon(estimates);
+  if (!estimates.located.motion_known) addMotion(estimates);
+  if (set_.lines) extract(estimates);
+  if (rooms_) track(estimates);
+  return estimates;
+}
+
+void Estimators::restart() {
+  if (odometry_) odometry_->restartClock();
+  if (!rooms_) return;
+  if (config_.rooms->initial_pose) {
+    rooms_->setPose(config_.rooms->start());
+  } else {
+    rooms_->restartClock();
+  }
+}
+
+// By a measured attitude; without one, the odometry looks for it.
+void Estimators::removeFloor(LocatedScan& located) const {
+  if (!config_.input.leans || !located.attitude) return;
+  const auto on_floor = motion::beamsOnFloor(config_.input.floor, located.scan, *located.attitude);
+  located.scan = motion::without(motion::levelled(located.scan, *located.attitude), on_floor);
+}
+
+void Estimators::reckon(Estimates& estimates) {
+  LocatedScan& located = estimates.located;
+  const bool is_known = located.T_base_sensor.has_value();
+  // What was found so far was of the scanner, not of the base.
+  if (is_known && !is_mounting_known_) odometry_->reset();
+  is_mounting_known_ = is_known;
+  estimates.odometry = odometry_->update(located);
+  if (!odometry_->beamsOnFloor().empty()) {
+    located.scan = motion::without(located.scan, odometry_->beamsOnFloor());
+  }
+}
+
+// Where no odometry tells how the sensor moved, the velocity that the dead reckoner found does.
+void Estimators::addMotion(Estimates& estimates) const {
+  const auto& update = estimates.odometry;
+  if (!update || update->state == dead_reckoning::MatchState::kInitial) return;
+  scan::Scan& scan = estimates.located.scan;
+  const double duration = scan.duration();
+  const Pose2 T_base_sensor = estimates.located.T_base_sensor.value_or(Pose2());
+  scan.setSensorMotion(motion::sweepMotion(
+      *scan.geometry(), Pose2::exp(duration * update->twist.mean), T_base_sensor));
+  const Eigen::Matrix3d to_sensor = T_base_sensor.inverse().adjoint();
+  scan.motion_noise.drift =
+      duration * duration * to_sensor * update->twist.covariance * to_sensor.transpose();
+}
+
+Estimators::Extractor& Estimators::extractorOf(std::size_t scanner) {
+  while (extractors_.size() <= scanner) {
+    const auto& config = config_.lines.extractor;
+    extractors_.push_back({lines::LineExtractor(config), lines::PlainExtractor(config)});
+  }
+  return extractors_[scanner];
+}
+
+void Estimators::extract(Estimates& estimates) {
+  const scan::Scan& scan = estimates.located.scan;
+  Extractor& extractor = extractorOf(estimates.located.scanner);
+  estimates.lines.emplace();
+  if (config_.lines.method == LineMethod::kPlain) {
+    estimates.lines->segments = extractor.plain.extract(scan);
+  } else {
+    estimates.lines->segments = extractor.full.extract(scan);
+    estimates.lines->arcs = extractor.full.arcs();
+  }
+}
+
+void Estimators::track(Estimates& estimates) {
+  const LocatedScan& located = estimates.located;
+  if (!located.T_odom_base || !located.T_base_sensor) return;
+  estimates.rooms = rooms_->update(located.scan, *located.T_odom_base, *located.T_base_sensor);
+}
+
+}  // namespace sightline::pipeline

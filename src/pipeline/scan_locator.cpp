@@ -1,0 +1,278 @@
+#include "sightline/pipeline/scan_locator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "sightline/geometry/isometry.h"
+#include "sightline/motion/sensor_path.h"
+#include "sightline/motion/sweep_noise.h"
+
+namespace sightline::pipeline {
+
+using geometry::Pose2;
+
+namespace {
+
+struct Constants {
+  // What has been silent for longer is not waited for [ns].
+  std::int64_t silence = 1'000'000'000;
+  // The plane of a scanner may be so far from level [rad]: beyond it, ranges along the ground and
+  // along the beam differ by more than 6 %.
+  double most_tilt = 0.35;
+  // A mounting that differs by more is not fixed [m, and as an entry of a rotation].
+  double fixed = 1e-4;
+};
+constexpr Constants kConstants;
+
+double tiltOf(const Eigen::Isometry3d& T_base_sensor) {
+  return std::acos(std::min(1.0, std::abs(T_base_sensor.linear()(2, 2))));
+}
+
+std::int64_t nanoseconds(double seconds) {
+  return std::llround(1e9 * seconds);
+}
+
+ScanLocator::Outcome dropped(std::string reason) {
+  ScanLocator::Outcome outcome;
+  outcome.reason = std::move(reason);
+  return outcome;
+}
+
+ScanLocator::Outcome waiting() {
+  ScanLocator::Outcome outcome;
+  outcome.waits = true;
+  return outcome;
+}
+
+}  // namespace
+
+ScanLocator::ScanLocator(const FeedConfig& config, const Frames& frames, const FeedNeeds& needs,
+                         const Transforms& transforms)
+    : config_(config), frames_(frames), needs_(needs), transforms_(transforms) {
+  if (config_.odometry_source != OdometrySource::kAutomatic) source_ = config_.odometry_source;
+}
+
+void ScanLocator::addOdometry(std::int64_t stamp, const Pose2& T_odom_base) {
+  odometry_.add(stamp, T_odom_base);
+}
+
+void ScanLocator::restartClock(std::int64_t stamp) {
+  if (!odometry_.empty() && odometry_.newest() > stamp + kConstants.silence) odometry_.clear();
+  const auto newest_imu = imu_.newest();
+  if (newest_imu && *newest_imu > stamp + kConstants.silence) imu_ = ImuHistory();
+}
+
+ScanLocator::Outcome ScanLocator::locate(const ArrivedScan& arrived, const Patience& patience,
+                                         std::optional<std::int64_t> before) {
+  std::optional<Eigen::Isometry3d> T_base_carried;
+  const Known mounting = findMounting(arrived, patience, T_base_carried);
+  if (mounting == Known::kWait) return waiting();
+  if (T_base_carried && tiltOf(*T_base_carried) > kConstants.most_tilt) {
+    return dropped(fmt::format("its plane is not level: {} is tilted by {:.0f} degrees in {}",
+                               arrived.carriedFrame(), geometry::degrees(tiltOf(*T_base_carried)),
+                               frames_.base));
+  }
+  const Known odometry = findOdometry(arrived, patience);
+  if (odometry == Known::kWait || findImu(arrived, patience) == Known::kWait) return waiting();
+  Outcome outcome;
+  outcome.located.emplace();
+  place(arrived, T_base_carried, *outcome.located);
+  if (odometry == Known::kYes) addMotion(arrived, *outcome.located);
+  explain(arrived, odometry, *outcome.located);
+  addInertial(arrived, before, *outcome.located);
+  return outcome;
+}
+
+ScanLocator::Known ScanLocator::findMounting(const ArrivedScan& arrived, const Patience& patience,
+                                             std::optional<Eigen::Isometry3d>& T_base_carried) {
+  if (!needs_.mounting) return Known::kNot;
+  const std::string& frame = arrived.carriedFrame();
+  T_base_carried = transforms_.at(frames_.base, frame, arrived.scan.stamp);
+  if (T_base_carried) return remember(frame, *T_base_carried);
+  const auto known = mountings_.find(frame);
+  const auto newest = transforms_.newest(frames_.base, frame);
+  if (known == mountings_.end() && !newest) return waitForFirst(frame, patience);
+  const bool began_later = newest && newest->stamp.value_or(0) > arrived.scan.stamp;
+  if (patience.usual && !began_later) return Known::kWait;
+  if (known != mountings_.end() && !known->second.is_fixed) return Known::kNot;
+  T_base_carried =
+      known != mountings_.end() ? known->second.T_base_carried : newest->T_target_source;
+  return Known::kYes;
+}
+
+ScanLocator::Known ScanLocator::remember(const std::string& frame,
+                                         const Eigen::Isometry3d& T_base_carried) {
+  const auto [known, is_new] = mountings_.try_emplace(frame, Mounting{T_base_carried, true});
+  if (!is_new && !known->second.T_base_carried.isApprox(T_base_carried, kConstants.fixed)) {
+    known->second = {T_base_carried, false};
+  }
+  return Known::kYes;
+}
+
+// Whoever has waited in vain once is not waited for again.
+ScanLocator::Known ScanLocator::waitForFirst(const std::string& what, const Patience& patience) {
+  if (given_up_.count(what) > 0) return Known::kNot;
+  if (patience.start) return Known::kWait;
+  given_up_.insert(what);
+  return Known::kNot;
+}
+
+// Automatic: transforms go before the topic, and what has been chosen stays, so that no step is
+// between poses of two origins.
+void ScanLocator::chooseSource(const std::string& frame) {
+  if (source_) return;
+  if (transforms_.newest(frames_.odom, frame)) {
+    source_ = OdometrySource::kTransforms;
+  } else if (!odometry_.empty()) {
+    source_ = OdometrySource::kTopic;
+  }
+}
+
+std::optional<std::int64_t> ScanLocator::newestOdometry(const std::string& frame) const {
+  if (source_ == OdometrySource::kTransforms) {
+    const auto newest = transforms_.newest(frames_.odom, frame);
+    if (!newest) return std::nullopt;
+    return newest->stamp.value_or(std::numeric_limits<std::int64_t>::max());
+  }
+  if (odometry_.empty()) return std::nullopt;
+  return odometry_.newest();
+}
+
+ScanLocator::Known ScanLocator::findOdometry(const ArrivedScan& arrived, const Patience& patience) {
+  if (!needs_.odometry || source_ == OdometrySource::kNone) return Known::kNot;
+  const std::string& frame = arrived.carriedFrame();
+  chooseSource(frame);
+  const std::string what = "odometry";
+  if (!source_) return waitForFirst(what, patience);
+  const std::int64_t stamp = arrived.scan.stamp;
+  const std::int64_t end = std::max(stamp, arrived.scan.end());
+  if (T_odom_carried(frame, stamp) && T_odom_carried(frame, end)) return Known::kYes;
+  const auto newest = newestOdometry(frame);
+  if (!newest) return waitForFirst(what, patience);
+  if (*newest >= end) return Known::kNever;
+  return patience.usual && end - *newest < kConstants.silence ? Known::kWait : Known::kNot;
+}
+
+ScanLocator::Known ScanLocator::findImu(const ArrivedScan& arrived,
+                                        const Patience& patience) const {
+  const auto newest = imu_.newest();
+  const std::int64_t end = arrived.scan.end();
+  if (!newest || *newest >= end) return newest ? Known::kYes : Known::kNot;
+  return patience.usual && end - *newest < kConstants.silence ? Known::kWait : Known::kNot;
+}
+
+std::optional<Pose2> ScanLocator::T_odom_base(std::int64_t stamp) const {
+  if (source_ == OdometrySource::kTopic) return odometry_.at(stamp);
+  const auto transform = transforms_.at(frames_.odom, frames_.base, stamp);
+  if (!transform) return std::nullopt;
+  return geometry::inPlane(*transform);
+}
+
+// Whatever moves with the sensor's mount: by the topic, the base itself.
+std::optional<Eigen::Isometry3d> ScanLocator::T_odom_carried(const std::string& frame,
+                                                             std::int64_t stamp) const {
+  if (source_ == OdometrySource::kTransforms) return transforms_.at(frames_.odom, frame, stamp);
+  const auto pose = odometry_.at(stamp);
+  if (!pose) return std::nullopt;
+  const auto mounting = mountings_.find(frame);
+  const Eigen::Isometry3d T_odom_base = geometry::inSpace(*pose);
+  return mounting == mountings_.end() ? T_odom_base : T_odom_base * mounting->second.T_base_carried;
+}
+
+// Mirrors what hangs upside down, so that all that follows is in the plane.
+void ScanLocator::place(const ArrivedScan& arrived,
+                        const std::optional<Eigen::Isometry3d>& T_base_carried,
+                        LocatedScan& located) {
+  located.scanner = arrived.scanner;
+  const auto orientation =
+      T_base_carried ? T_base_carried : T_odom_carried(arrived.carriedFrame(), arrived.scan.stamp);
+  located.upside_down = orientation && orientation->linear()(2, 2) < 0.0;
+  located.scan = located.upside_down ? scan::mirrored(arrived.scan, mirroredGeometry(arrived.scan))
+                                     : arrived.scan;
+  located.motion_known = arrived.scan.duration() == 0.0;
+  if (!T_base_carried) return;
+  located.T_base_sensor = geometry::inPlane(*T_base_carried);
+  if (!arrived.head) return;
+  const auto head = located.upside_down ? motion::mirrored(*arrived.head) : *arrived.head;
+  located.T_base_sensor = *located.T_base_sensor * head.T_mount_sensor(0);
+}
+
+void ScanLocator::addMotion(const ArrivedScan& arrived, LocatedScan& located) const {
+  const std::int64_t stamp = arrived.scan.stamp;
+  if (needs_.mounting) located.T_odom_base = T_odom_base(stamp);
+  const auto path = [&](double after) -> std::optional<Pose2> {
+    const auto pose = T_odom_carried(arrived.carriedFrame(), stamp + nanoseconds(after));
+    if (!pose) return std::nullopt;
+    return geometry::inPlane(*pose);
+  };
+  auto motion = motion::sweepAlong(path, *located.scan.geometry());
+  if (!motion) return;
+  located.motion_known = true;
+  if (!arrived.head) {
+    located.scan.setSensorMotion(std::move(*motion));
+  } else {
+    const auto head = located.upside_down ? motion::mirrored(*arrived.head) : *arrived.head;
+    located.scan.setSensorMotion(motion::headMotion(head, *motion));
+  }
+  addMotionNoise(arrived, located);
+}
+
+void ScanLocator::addMotionNoise(const ArrivedScan& arrived, LocatedScan& located) const {
+  if (located.scan.sensorMotion().empty()) return;
+  const auto start = T_odom_base(arrived.scan.stamp);
+  const auto end = T_odom_base(arrived.scan.end());
+  // Without a base, what carries the sensor is taken for it.
+  const Pose2 T_start_end =
+      start && end ? geometry::between(*start, *end) : located.scan.sensorMotion().back();
+  located.scan.motion_noise =
+      motion::sweepNoise(config_.sweep_noise, T_start_end, located.T_base_sensor.value_or(Pose2()));
+  addJitter(arrived, located);
+}
+
+// A head that turns is where its joint says, but for an error that each reading draws anew (pears
+// eq. 23); one that stands has the same error throughout.
+void ScanLocator::addJitter(const ArrivedScan& arrived, LocatedScan& located) const {
+  if (!arrived.head || config_.head_sigma == 0.0) return;
+  const auto head = located.upside_down ? motion::mirrored(*arrived.head) : *arrived.head;
+  if (motion::headMotion(head).empty()) return;
+  located.scan.motion_noise.jitter = config_.head_sigma * config_.head_sigma;
+  located.scan.motion_noise.jitter_axis = head.T_mount_sensor(0).inverse().translation();
+}
+
+void ScanLocator::explain(const ArrivedScan& arrived, Known odometry, LocatedScan& located) const {
+  located.before_odometry = odometry == Known::kNever;
+  if (located.before_odometry) {
+    located.no_odometry = "it is from before the odometry began";
+  } else if (!located.T_base_sensor) {
+    located.no_odometry =
+        fmt::format("no transform from {} to {} at its time", frames_.base, arrived.carriedFrame());
+  } else if (!located.T_odom_base) {
+    located.no_odometry =
+        fmt::format("no odometry from {} to {} at its time", frames_.odom, frames_.base);
+  }
+}
+
+void ScanLocator::addInertial(const ArrivedScan& arrived, std::optional<std::int64_t> before,
+                              LocatedScan& located) const {
+  const std::int64_t stamp = arrived.scan.stamp;
+  if (before) located.turn = imu_.turn(*before, stamp);
+  const auto first = imu_.attitude(stamp);
+  const auto last = imu_.attitude(arrived.scan.end());
+  if (!first || !last) return;
+  const double yaw = located.T_base_sensor ? located.T_base_sensor->theta() : 0.0;
+  located.attitude = motion::SweepAttitude{first->seenFrom(yaw), last->seenFrom(yaw)};
+}
+
+std::shared_ptr<const scan::ScanGeometry> ScanLocator::mirroredGeometry(const scan::Scan& scan) {
+  if (scan.geometry() != geometry_) {
+    geometry_ = scan.geometry();
+    mirrored_geometry_ = geometry_->mirrored();
+  }
+  return mirrored_geometry_;
+}
+
+}  // namespace sightline::pipeline

@@ -1,0 +1,94 @@
+#include "sightline/tracking/gated_wall.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace sightline::tracking {
+
+namespace {
+
+// The noise of a typical beam: half the trace holds for beams along the wall's normal as for those
+// across it.
+double typicalSigma(const std::vector<BeamPoint>& points) {
+  if (points.empty()) return 0.0;
+  return std::sqrt(0.5 * points[points.size() / 2].covariance.trace());
+}
+
+}  // namespace
+
+std::vector<GatedWall> gateWalls(const GateConfig& config,
+                                 const std::vector<const world::Wall*>& walls, double wall_sigma,
+                                 const geometry::UncertainPose2& T_map_base,
+                                 const std::vector<BeamPoint>& points) {
+  std::vector<GatedWall> gated;
+  gated.reserve(walls.size());
+  const double sigma = typicalSigma(points);
+  for (const world::Wall* wall : walls) {
+    gated.push_back({ValidationGate(config, *wall, wall_sigma, T_map_base, sigma), {}});
+    if (wall->spans.empty()) continue;
+    for (const BeamPoint& point : points) {
+      if (gated.back().gate.contains(point)) gated.back().points.push_back(&point);
+    }
+  }
+  return gated;
+}
+
+void giveEachBeamToOneWall(std::vector<GatedWall>& walls) {
+  struct Claim {
+    const GatedWall* wall = nullptr;
+    double distance = std::numeric_limits<double>::infinity();
+  };
+  std::unordered_map<const BeamPoint*, Claim> claims;
+  for (const GatedWall& wall : walls) {
+    for (const BeamPoint* point : wall.points) {
+      const double distance = std::abs(wall.gate.predicted().signedDistance(point->position));
+      Claim& claim = claims[point];
+      if (distance < claim.distance) claim = {&wall, distance};
+    }
+  }
+  for (GatedWall& wall : walls) {
+    const auto is_of_another = [&](const BeamPoint* point) { return claims[point].wall != &wall; };
+    wall.points.erase(std::remove_if(wall.points.begin(), wall.points.end(), is_of_another),
+                      wall.points.end());
+  }
+}
+
+double pointSigma(const BeamPoint& point, const Eigen::Vector2d& normal) {
+  return std::sqrt(normal.dot(point.covariance * normal));
+}
+
+std::vector<const BeamPoint*> nearLine(const std::vector<const BeamPoint*>& points,
+                                       const geometry::PolarLine& line, double sigmas,
+                                       double slack) {
+  std::vector<const BeamPoint*> near;
+  const Eigen::Vector2d normal = line.normal();
+  for (const BeamPoint* point : points) {
+    const double reach = sigmas * pointSigma(*point, normal) + slack;
+    if (std::abs(line.signedDistance(point->position)) <= reach) near.push_back(point);
+  }
+  return near;
+}
+
+std::vector<fitting::NoisyPoint> toFitPoints(const std::vector<const BeamPoint*>& points) {
+  std::vector<fitting::NoisyPoint> result;
+  result.reserve(points.size());
+  for (const BeamPoint* point : points) result.push_back({point->position, point->covariance});
+  return result;
+}
+
+WallRefusal refusalOf(const WallConfig& config, const std::vector<const BeamPoint*>& points,
+                      const geometry::PolarLine& line) {
+  if (points.size() < static_cast<std::size_t>(config.min_beams)) return WallRefusal::kTooFewBeams;
+  const Eigen::Vector2d along = line.direction();
+  double first = along.dot(points.front()->position);
+  double last = first;
+  for (const BeamPoint* point : points) {
+    first = std::min(first, along.dot(point->position));
+    last = std::max(last, along.dot(point->position));
+  }
+  return last - first >= config.min_length ? WallRefusal::kNone : WallRefusal::kTooShort;
+}
+
+}  // namespace sightline::tracking
