@@ -17,10 +17,6 @@ namespace sightline::nodes {
 
 namespace {
 
-geometry::Pose2 startOf(const SimRobotConfig& config) {
-  return {config.start_pose[0], config.start_pose[1], config.start_pose[2]};
-}
-
 simulation::ActiveSensorProfile profileOf(const SimActiveSensorConfig& config) {
   auto profile = config.profile.empty() ? simulation::ActiveSensorProfile{}
                                         : simulation::ActiveSensorProfile::readFile(config.profile);
@@ -40,7 +36,7 @@ SimRobotTopics::SimRobotTopics(const ros::NodeHandle& node, const SimRobotSetup&
       config_(setup.config),
       name_(setup.name),
       map_frame_(std::move(map_frame)),
-      carrier_(simulation.addRobot(config_.robot, startOf(config_))),
+      carrier_(simulation.addRobot(config_.robot, config_.start_pose)),
       clock_(clock),
       updater_(updater),
       static_broadcaster_(static_broadcaster),

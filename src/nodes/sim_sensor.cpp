@@ -72,9 +72,7 @@ SimSensorNode::SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node)
 }
 
 void SimSensorNode::addMover(const SimMoverConfig& mover) {
-  const auto& start = mover.start_pose;
-  simulation_.addMover(mover.body, simulation::Path::readFile(mover.path),
-                       geometry::Pose2(start[0], start[1], start[2]));
+  simulation_.addMover(mover.body, simulation::Path::readFile(mover.path), mover.start_pose);
 }
 
 void SimSensorNode::onTimer() {

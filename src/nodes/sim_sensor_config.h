@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "sightline/bridge/active_sensor_topics.h"
 #include "sightline/config/fields.h"
@@ -21,7 +20,7 @@ struct SimScannerConfig {
   double turret_rate = 0.0;  ///< [rad/s]
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.text("profile", profile, "path of the scanner's profile; empty: Hokuyo UTM-30LX");
+    visitor.path("profile", profile, "path of the scanner's profile; empty: Hokuyo UTM-30LX");
     visitor.text("topic", topic, "where the scans go");
     visitor.text("frame", frame, "frame of the scans");
     mounting.visit(visitor);
@@ -41,9 +40,9 @@ struct SimActiveSensorConfig {
   simulation::Mounting mounting;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.text("profile", profile,
+    visitor.path("profile", profile,
                  "path of the sensor's profile; empty: as config/sensors/synchronised_scan.yaml");
-    visitor.text("urdf", urdf,
+    visitor.path("urdf", urdf,
                  "path of a robot description with the limits of the head; empty: the profile's");
     visitor.flag("publish_tf", publish_tf,
                  "broadcast base_frame to mount_frame, that to head_frame, and that to frame; off "
@@ -55,9 +54,9 @@ struct SimActiveSensorConfig {
 
 /// Parameters of one robot of the node sim_sensor: the node's own, or those below ~robots/NAME.
 struct SimRobotConfig {
-  std::string path;                         ///< path of the path file; empty: cmd_vel drives
-  std::vector<double> start_pose{0, 0, 0};  ///< x, y, yaw in the map [m, m, rad]
-  double odometry_rate = 50.0;              ///< [Hz]
+  std::string path;             ///< path of the path file; empty: cmd_vel drives
+  geometry::Pose2 start_pose;   ///< T_map_base, or of the body
+  double odometry_rate = 50.0;  ///< [Hz]
   bool publish_tf = true;
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
@@ -66,10 +65,8 @@ struct SimRobotConfig {
   simulation::GaitConfig gait;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.text("path", path, "path of a file with a way to drive; without it cmd_vel drives");
-    visitor.numbers(
-        "start_pose", start_pose,
-        {"m, m, rad", config::kCoordinate, "x, y and yaw of the robot in the map at the start"});
+    visitor.path("path", path, "path of a file with a way to drive; without it cmd_vel drives");
+    visitor.pose("start_pose", start_pose, "of the robot in the map at the start");
     visitor.number("odometry_rate", odometry_rate,
                    {"Hz", {1.0, 200.0}, "of odom, ground_truth and the transform of the odometry"});
     visitor.flag("publish_tf", publish_tf, "broadcast odom_frame to base_frame");
@@ -93,7 +90,7 @@ struct SimSensorConfig {
   std::string map_frame = "map";
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.text("world", world, "path of the world file; must be set");
+    visitor.path("world", world, "path of the world file; must be set");
     visitor.integer("seed", seed, {"1", {0, 1e9}, "of all random errors"});
     visitor.number("duration", duration,
                    {"s", {0.0, 1e9}, "the node ends after so much of the run; 0: never"});
@@ -106,14 +103,13 @@ struct SimSensorConfig {
 
 /// Parameters of one thing that moves through the world of sim_sensor, below ~movers/NAME.
 struct SimMoverConfig {
-  std::string path;                         ///< path of the path file
-  std::vector<double> start_pose{0, 0, 0};  ///< x, y, yaw in the map [m, m, rad]
+  std::string path;            ///< path of the path file
+  geometry::Pose2 start_pose;  ///< T_map_base, or of the body
   simulation::Body body;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.text("path", path, "path of a file with the way it goes; must be set");
-    visitor.numbers("start_pose", start_pose,
-                    {"m, m, rad", {}, "x, y and yaw in the map at the start"});
+    visitor.path("path", path, "path of a file with the way it goes; must be set");
+    visitor.pose("start_pose", start_pose, "in the map at the start");
     body.visit(visitor);
   }
 };

@@ -30,10 +30,6 @@ std::string prefixed(const std::string& robot, const std::string& name) {
   return robot.empty() || (!name.empty() && name[0] == '/') ? name : robot + "/" + name;
 }
 
-void requirePose(const std::vector<double>& pose, const config::Node& parameters) {
-  if (pose.size() != 3) parameters.at("start_pose").fail("expected x, y and yaw");
-}
-
 // Reads one robot after the other; keeps what their names are.
 class RobotReader {
  public:
@@ -41,7 +37,6 @@ class RobotReader {
     SimRobotSetup robot;
     robot.name = name;
     config::read(parameters, robot.config, config::UnknownKeys::kIgnore);
-    requirePose(robot.config.start_pose, parameters);
     for (std::string* frame : {&robot.config.odom_frame, &robot.config.base_frame}) {
       claimFrame(name, *frame, parameters);
     }
@@ -96,7 +91,6 @@ class RobotReader {
 SimMoverConfig readMover(const config::Node& parameters) {
   SimMoverConfig mover;
   config::read(parameters, mover);
-  requirePose(mover.start_pose, parameters);
   if (mover.path.empty()) parameters.fail("path has to name a path file");
   return mover;
 }

@@ -19,11 +19,11 @@ struct SyncScanDriverConfig {
 
   void visit(config::FieldVisitor& visitor) {
     session.visit(visitor);
-    visitor.text("calibration", calibration,
+    visitor.path("calibration", calibration,
                  "path of the device's calibration file; empty: the profile's");
-    visitor.text("profile", profile,
+    visitor.path("profile", profile,
                  "path of the sensor's profile; empty: as config/sensors/synchronised_scan.yaml");
-    visitor.text("urdf", urdf,
+    visitor.path("urdf", urdf,
                  "path of the robot description; empty: the parameter robot_description");
     visitor.flag("publish_tf", publish_tf,
                  "broadcast mount_frame to head_frame, at every sample that tells how the head "

@@ -7,9 +7,11 @@
 namespace sightline::scan {
 
 void NoiseModel::visit(config::FieldVisitor& visitor) {
-  visitor.choice("kind", kind,
-                 {"constant", "proportional", "uniform", "isotropic", "intensity", "estimated"},
-                 "shape of the noise");
+  visitor.choice(
+      "kind", kind, {"constant", "proportional", "uniform", "isotropic", "intensity", "estimated"},
+      "shape of the noise along a beam: always the same; growing with the range; of bounds "
+      "(jensfelt eqs 2-4); of points, alike in x and y; falling with the intensity "
+      "(pears eq. 2); or estimated from the scans themselves");
   visitor.number(
       "sigma", sigma,
       {"m",

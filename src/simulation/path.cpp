@@ -7,15 +7,20 @@ namespace sightline::simulation {
 
 Path::Path(const config::Node& document) {
   document.allowOnly({"wait", "speed", "turn_rate", "tolerance", "repeat", "waypoints"});
-  wait = document.numberOr("wait", wait, config::kNotNegative);
-  speed = document.numberOr("speed", speed, config::kPositive);
-  turn_rate = document.numberOr("turn_rate", turn_rate, config::kPositive);
-  tolerance = document.numberOr("tolerance", tolerance, config::kPositive);
-  if (document.has("repeat")) repeat = document.at("repeat").flag();
+  config::read(document, *this, config::UnknownKeys::kIgnore);
   for (const config::Node& node : document.at("waypoints").items()) {
     const auto xy = node.numbers(2, {-1e6, 1e6});
     waypoints_map.emplace_back(xy[0], xy[1]);
   }
+}
+
+void Path::visit(config::FieldVisitor& visitor) {
+  visitor.number("wait", wait, {"s", {0.0, 1e6}, "before the robot sets off"});
+  visitor.number("speed", speed, {"m/s", {1e-3, 50.0}, "of the robot on its way"});
+  visitor.number("turn_rate", turn_rate, {"rad/s", {1e-3, 50.0}, "the robot turns no faster"});
+  visitor.number("tolerance", tolerance,
+                 {"m", {1e-3, 100.0}, "this near to a waypoint the next one is headed for"});
+  visitor.flag("repeat", repeat, "from the last waypoint on to the first, for ever");
 }
 
 PathFollower::PathFollower(Path path, double acceleration)

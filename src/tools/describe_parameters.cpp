@@ -9,7 +9,9 @@
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
 #include "nodes/sync_scan_driver_config.h"
+#include "sightline/pipeline/estimators_config.h"
 #include "sightline/simulation/active_sensor_profile.h"
+#include "sightline/simulation/path.h"
 #include "sightline/simulation/scanner_profile.h"
 
 namespace {
@@ -35,43 +37,66 @@ void printTable(const std::string& title, const std::string& text,
   }
 }
 
+// A section for any struct with a field list, with the values that it holds as defaults.
+template <class Config>
+void print(const std::string& title, const std::string& text) {
+  const Config defaults;
+  printTable(title, text, sightline::config::describe(defaults));
+}
+
+void printNodes() {
+  namespace nodes = sightline::nodes;
+  print<nodes::LineExtractorNodeConfig>(
+      "line_extractor",
+      "Parameters of the node. `config/line_extractor.yaml` holds them with their defaults.");
+  print<nodes::RoomTrackerNodeConfig>("room_tracker", "Parameters of the node.");
+  print<nodes::LaserOdometryNodeConfig>(
+      "laser_odometry",
+      "Parameters of the node. `config/carriers` holds those that depend on who carries the "
+      "scanner.");
+  printTable("estimators", "Parameters of the node.",
+             {{"config", "path", "(empty)", "-", "any",
+               "the file of estimators that `offline` takes, too; must be set"}});
+  print<nodes::SyncScanDriverConfig>("sync_scan_driver", "Parameters of the node.");
+  print<nodes::SimSensorConfig>("sim_sensor", "Parameters of the node.");
+  print<nodes::SimRobotConfig>(
+      "sim_sensor: robots",
+      "Parameters of one robot, below `~robots/NAME` of sim_sensor: NAME is the namespace of its "
+      "topics and the prefix of its frames. Without `~robots` there is one robot, and these are "
+      "the node's own.");
+  print<nodes::SimScannerConfig>("sim_sensor: scanners",
+                                 "Parameters of one scanner, below `scanners/NAME` of its robot.");
+  print<nodes::SimActiveSensorConfig>(
+      "sim_sensor: active sensors",
+      "Parameters of one sensor on a head, below `active_sensors/NAME` of its robot.");
+  print<nodes::SimMoverConfig>(
+      "sim_sensor: movers",
+      "Parameters of one thing that moves through the world, below `~movers/NAME` of sim_sensor.");
+}
+
+void printFiles() {
+  namespace simulation = sightline::simulation;
+  print<sightline::pipeline::EstimatorsConfig>("Files of estimators",
+                                               "What `offline`, `replay.launch` and the node "
+                                               "estimators are given. `rooms` and `odometry` are "
+                                               "there where these estimators are wanted.");
+  print<simulation::ActiveSensorProfile>(
+      "Active sensor profiles",
+      "The files of `config/sensors` for synchronised-scan sensors, real or simulated.");
+  print<simulation::ScannerProfile>("Scanner profiles",
+                                    "The files of `config/sensors` for time-of-flight scanners.");
+  auto path = sightline::config::describe<simulation::Path>();
+  path.push_back({"waypoints", "list of [x, y]", "-", "m", "[-1e6, 1e6]",
+                  "where the way leads, in the map; must be set"});
+  printTable("Paths", "The files of `config/paths`, which say where a simulated robot drives.",
+             path);
+}
+
 }  // namespace
 
 int main() {
-  using sightline::config::describe;
-  namespace nodes = sightline::nodes;
   fmt::print("{}", kHead);
-  printTable("line_extractor",
-             "Parameters of the node. `config/line_extractor.yaml` holds them with their defaults.",
-             describe<nodes::LineExtractorNodeConfig>());
-  printTable("room_tracker", "Parameters of the node.", describe<nodes::RoomTrackerNodeConfig>());
-  printTable("laser_odometry",
-             "Parameters of the node. `config/carriers` holds those that depend on who carries the "
-             "scanner.",
-             describe<nodes::LaserOdometryNodeConfig>());
-  const nodes::SyncScanDriverConfig driver;
-  printTable("sync_scan_driver", "Parameters of the node.", describe(driver));
-  printTable("sim_sensor", "Parameters of the node.", describe<nodes::SimSensorConfig>());
-  printTable(
-      "sim_sensor: robots",
-      "Parameters of one robot, below `~robots/NAME` of sim_sensor: NAME is the namespace of "
-      "its topics and the prefix of its frames. Without `~robots` there is one robot, and "
-      "these are the node's own.",
-      describe<nodes::SimRobotConfig>());
-  printTable("sim_sensor: scanners",
-             "Parameters of one scanner, below `scanners/NAME` of its robot.",
-             describe<nodes::SimScannerConfig>());
-  printTable("sim_sensor: active sensors",
-             "Parameters of one sensor on a head, below `active_sensors/NAME` of its robot.",
-             describe<nodes::SimActiveSensorConfig>());
-  printTable("sim_sensor: movers",
-             "Parameters of one thing that moves through the world, below `~movers/NAME` of "
-             "sim_sensor.",
-             describe<nodes::SimMoverConfig>());
-  printTable("Active sensor profiles",
-             "The files of `config/sensors` for synchronised-scan sensors, real or simulated.",
-             describe<sightline::simulation::ActiveSensorProfile>());
-  printTable("Scanner profiles", "The files of `config/sensors` for time-of-flight scanners.",
-             describe<sightline::simulation::ScannerProfile>());
+  printNodes();
+  printFiles();
   return 0;
 }

@@ -22,25 +22,32 @@ class EndSetter : public config::FieldVisitor {
   static constexpr int kAll = -1;
   EndSetter(int field, End end) : wanted_(field), end_(end) {}
 
-  void number(const char* name, double& value, const config::Field& field) override {
-    if (isWanted(name)) value = endOf(field);
-  }
-  void integer(const char* name, int& value, const config::Field& field) override {
-    if (isWanted(name)) value = static_cast<int>(endOf(field));
-  }
-  void numbers(const char* name, std::vector<double>& values, const config::Field& field) override {
-    if (isWanted(name)) std::fill(values.begin(), values.end(), endOf(field));
-  }
-  void flag(const char*, bool&, const char*) override {}
-  void text(const char*, std::string&, const char*) override {}
-  void option(const char*, std::size_t&, const std::vector<const char*>&, const char*) override {}
-  void enter(const char*) override {}
-  void leave() override {}
-
   int fields() const { return count_; }
   const std::string& name() const { return name_; }
 
  private:
+  void member(const char* name, const config::Member& member, const config::Field& field) override {
+    std::visit([&](const auto& kind) { take(name, kind, field); }, member);
+  }
+  void enter(const char*) override {}
+  void leave() override {}
+  bool wants(const char*, bool present) override { return present; }
+  std::vector<std::string> names(const std::vector<std::string>& present, const char*) override {
+    return present;
+  }
+
+  void take(const char* name, double* value, const config::Field& field) {
+    if (isWanted(name)) *value = endOf(field);
+  }
+  void take(const char* name, int* value, const config::Field& field) {
+    if (isWanted(name)) *value = static_cast<int>(endOf(field));
+  }
+  void take(const char* name, std::vector<double>* values, const config::Field& field) {
+    if (isWanted(name)) std::fill(values->begin(), values->end(), endOf(field));
+  }
+  template <class Kind>
+  void take(const char*, const Kind&, const config::Field&) {}
+
   bool isWanted(const char* name) {
     const bool wanted = wanted_ == kAll || wanted_ == count_;
     if (wanted) name_ = name;

@@ -140,7 +140,7 @@ TEST(Robots, NamesThatTwoHaveEndTheNode) {
   EXPECT_THAT(endOf("active_sensors: {a: {}, b: {scan: s, range_scan: r, head_command: h, "
                     "mount_frame: m, head_frame: n, frame: p}}"),
               HasSubstr("another has the joint 'head_joint' already"));
-  EXPECT_THAT(endOf("robots: {c: {start_pose: [1, 2]}}"), HasSubstr("expected x, y and yaw"));
+  EXPECT_THAT(endOf("robots: {c: {start_pose: [1, 2]}}"), HasSubstr("expected a pose: [x, y, yaw]"));
   EXPECT_THAT(endOf("movers: {d: {}}"), HasSubstr("has to name a path file"));
 }
 

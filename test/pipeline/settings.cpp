@@ -11,8 +11,9 @@
 #include "sightline/scan/noise_model.h"
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/gait.h"
+#include "sightline/simulation/mounting.h"
+#include "sightline/simulation/path.h"
 #include "sightline/simulation/robot.h"
-#include "sightline/simulation/scanner.h"
 #include "sightline/simulation/scanner_profile.h"
 #include "sightline/tracking/tracker_config.h"
 
@@ -22,8 +23,8 @@ namespace {
 using OfTheLibrary =
     testing::Types<dead_reckoning::DeadReckonerConfig, driver::SessionConfig,
                    lines::LineExtractorConfig, motion::HeadLimits, motion::OdometryNoise,
-                   pipeline::EstimatorsConfig, pipeline::ScanOdometryConfig, scan::NoiseModel,
-                   simulation::ActiveSensorProfile, simulation::GaitConfig, simulation::Mounting,
+                   pipeline::EstimatorsConfig, scan::NoiseModel, simulation::ActiveSensorProfile,
+                   simulation::GaitConfig, simulation::Mounting, simulation::Path,
                    simulation::RobotConfig, simulation::ScannerProfile, tracking::TrackerConfig>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Library, EverySetting, OfTheLibrary);
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "sightline/config/node.h"
+#include "sightline/config/fields.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/simulation/robot.h"
 
@@ -33,6 +33,8 @@ struct Path {
   Path() = default;
   /// Throws config::Error with file, line and key.
   explicit Path(const config::Node& document);
+  /// Without the waypoints, which have no default.
+  void visit(config::FieldVisitor& visitor);
   static Path readFile(const std::string& path) { return Path(config::Node::readFile(path)); }
 };
 
