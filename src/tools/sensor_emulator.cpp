@@ -104,8 +104,8 @@ void obey(simulation::EmulatedDevice& device, simulation::DeviceFaults& faults, 
 }
 
 int emulate(const Job& job, int signals) {
-  auto profile = job.profile ? simulation::ActiveSensorProfile::readFile(*job.profile)
-                             : simulation::ActiveSensorProfile{};
+  simulation::ActiveSensorProfile profile;
+  if (job.profile) profile = simulation::ActiveSensorProfile::readFile(*job.profile);
   if (job.urdf) profile.takeHead(driver::HeadJoint::readFile(*job.urdf, {}), *job.urdf);
   const geometry::Pose2 pose(job.pose[0], job.pose[1], job.pose[2]);
   simulation::EmulatedDevice device(
