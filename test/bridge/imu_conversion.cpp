@@ -1,3 +1,4 @@
+#include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/imu_conversion.h"
 
 #include <limits>
@@ -72,7 +73,7 @@ TEST(Imu, WithoutAnOrientationTheTurnRateStays) {
 
 TEST(Imu, NonsenseIsRefused) {
   const auto expectRefusal = [](const sensor_msgs::Imu& message) {
-    EXPECT_THROW(readImu(message, kStraight), std::invalid_argument);
+    EXPECT_THROW(readImu(message, kStraight), BadMessage);
   };
   auto message = leaning();
   message.header.stamp = ros::Time();

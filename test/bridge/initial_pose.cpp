@@ -1,3 +1,4 @@
+#include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/initial_pose.h"
 
 #include <limits>
@@ -22,7 +23,7 @@ geometry_msgs::PoseWithCovarianceStamped goodMessage() {
 std::string reasonFor(const geometry_msgs::PoseWithCovarianceStamped& message) {
   try {
     readInitialPose(message, "map", kSigma);
-  } catch (const std::invalid_argument& fault) {
+  } catch (const BadMessage& fault) {
     return fault.what();
   }
   return "";

@@ -56,7 +56,7 @@ TEST_F(EstimatorsConfigTest, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(fault("noise: 3\n"), HasSubstr("a.yaml:1: noise: expected a map"));
   EXPECT_THAT(fault("rooms: {initial_pose: [0, 0, 0]}\n"), HasSubstr("missing key 'map'"));
   EXPECT_THAT(fault("rooms:\n  map: a\n  initial_pose: [0, 0]\n"),
-              HasSubstr("a.yaml:3: rooms.initial_pose: expected 3 numbers, found 2"));
+              HasSubstr("a.yaml:3: rooms.initial_pose: expected a pose: [x, y, yaw]"));
   EXPECT_THAT(fault("rooms: {map: a, initial_pose: [0, 0, .nan]}\n"), HasSubstr("initial_pose"));
   EXPECT_THAT(fault("rooms: {map: a, initial_pose: [0, 0, 0], initial_sigma: [-1, 0]}\n"),
               HasSubstr("initial_sigma"));
