@@ -68,9 +68,10 @@ int main() {
              "Parameters of one thing that moves through the world, below `~movers/NAME` of "
              "sim_sensor.",
              describe<nodes::SimMoverConfig>());
+  const sightline::simulation::ActiveSensorProfile profile;
   printTable("Active sensor profiles",
              "The files of `config/sensors` for synchronised-scan sensors, real or simulated.",
-             describe<sightline::simulation::ActiveSensorProfile>());
+             describe(profile));
   printTable("Scanner profiles", "The files of `config/sensors` for time-of-flight scanners.",
              describe<sightline::simulation::ScannerProfile>());
   return 0;
