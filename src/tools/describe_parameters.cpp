@@ -68,10 +68,9 @@ int main() {
              "Parameters of one thing that moves through the world, below `~movers/NAME` of "
              "sim_sensor.",
              describe<nodes::SimMoverConfig>());
-  const sightline::simulation::ActiveSensorProfile profile;
   printTable("Active sensor profiles",
              "The files of `config/sensors` for synchronised-scan sensors, real or simulated.",
-             describe(profile));
+             describe<sightline::simulation::ActiveSensorProfile>());
   printTable("Scanner profiles", "The files of `config/sensors` for time-of-flight scanners.",
              describe<sightline::simulation::ScannerProfile>());
   return 0;
