@@ -18,9 +18,13 @@ OdometryOutput::OdometryOutput(Output& output, const pipeline::Frames& frames, b
       transforms_(publish_tf ? output.openTransforms() : Port<tf2_msgs::TFMessage>()) {}
 
 std::string OdometryOutput::write(const pipeline::Estimates& estimates) {
+  if (estimates.located.scanner > 0) return "";
   ++scans_;
   const auto& update = estimates.odometry;
-  if (!update) return "not newer than the scan before it";
+  if (!update) {
+    return estimates.located.T_base_sensor ? "not newer than the scan before it"
+                                           : estimates.located.no_odometry;
+  }
   ++states_[static_cast<std::size_t>(update->state)];
   if (estimates.located.T_odom_base) ++with_wheels_;
   odometry_.write(toLaserOdometryMessage(*update, frames_.odom, frames_.base));
@@ -40,8 +44,9 @@ std::vector<std::string> OdometryOutput::summary() const {
       "odometry: {} of {} scans have a pose, {} of them flagged, {} with the wheels as prior",
       poses, scans_, flagged, with_wheels_)};
   if (scans_ > poses) {
-    lines.push_back(fmt::format("odometry: {} scans left out: not newer than the scan before it",
-                                scans_ - poses));
+    lines.push_back(fmt::format(
+        "odometry: {} scans left out: not newer than the scan before, or of unknown mounting",
+        scans_ - poses));
   }
   return lines;
 }

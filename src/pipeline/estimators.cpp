@@ -8,6 +8,13 @@ namespace sightline::pipeline {
 
 using geometry::Pose2;
 
+namespace {
+
+// Scans of others are not compared with what this scanner has seen.
+constexpr std::size_t kOdometryScanner = 0;
+
+}  // namespace
+
 Estimators::Estimators(const EstimatorsConfig& config, const EstimatorSet& set)
     : config_(config), set_(set) {
   config::validate(config_.lines);
@@ -61,6 +68,7 @@ void Estimators::removeFloor(LocatedScan& located) const {
 void Estimators::reckon(Estimates& estimates) {
   LocatedScan& located = estimates.located;
   const bool is_known = located.T_base_sensor.has_value();
+  if (located.scanner != kOdometryScanner || (is_mounting_known_ && !is_known)) return;
   // What was found so far was of the scanner, not of the base.
   if (is_known && !is_mounting_known_) odometry_->reset();
   is_mounting_known_ = is_known;

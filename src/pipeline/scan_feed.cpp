@@ -1,5 +1,6 @@
 #include "sightline/pipeline/scan_feed.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -21,6 +22,7 @@ ScanFeed::ScanFeed(const FeedConfig& config, const Frames& frames, const FeedNee
 
 std::size_t ScanFeed::addScanner() {
   counts_.emplace_back();
+  before_.emplace_back();
   return counts_.size() - 1;
 }
 
@@ -74,21 +76,23 @@ std::optional<FeedResult> ScanFeed::flush() {
 }
 
 bool ScanFeed::isSetBack(std::int64_t stamp) const {
-  return before_ && stamp < *before_ - kSetBack;
+  return newest_ && stamp < *newest_ - kSetBack;
 }
 
 std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
   ArrivedScan& front = waiting_.front();
   if (isSetBack(front.scan.stamp)) {
-    before_.reset();
+    newest_.reset();
+    before_.assign(scanners(), std::nullopt);
     clock_restarted_ = true;
     locator_.restartClock(front.scan.stamp);
   }
   ScanLocator::Outcome outcome;
-  if (before_ && front.scan.stamp < *before_) {
+  const auto& before = before_[front.scanner];
+  if (before && front.scan.stamp < *before) {
     outcome.reason = "older than the scan before it";
   } else {
-    outcome = locator_.locate(front, patience, before_);
+    outcome = locator_.locate(front, patience, before);
   }
   if (outcome.waits) return std::nullopt;
   const FeedResult result = finish(front, std::move(outcome));
@@ -107,7 +111,8 @@ FeedResult ScanFeed::finish(const ArrivedScan& arrived, ScanLocator::Outcome out
   ++counts.located;
   if (!result.located->motion_known) ++counts.without_motion;
   result.located->clock_restarted = std::exchange(clock_restarted_, false);
-  before_ = arrived.scan.stamp;
+  before_[arrived.scanner] = arrived.scan.stamp;
+  newest_ = std::max(newest_.value_or(arrived.scan.stamp), arrived.scan.stamp);
   return result;
 }
 

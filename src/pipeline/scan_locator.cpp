@@ -20,6 +20,8 @@ namespace {
 struct Constants {
   // What has been silent for longer is not waited for [ns].
   std::int64_t silence = 1'000'000'000;
+  // Older than this, the newest motion says nothing about the present one [ns].
+  std::int64_t oldest_motion = 500'000'000;
   // The plane of a scanner may be so far from level [rad]: beyond it, ranges along the ground and
   // along the beam differ by more than 6 %.
   double most_tilt = 0.35;
@@ -81,7 +83,12 @@ ScanLocator::Outcome ScanLocator::locate(const ArrivedScan& arrived, const Patie
   Outcome outcome;
   outcome.located.emplace();
   place(arrived, T_base_carried, *outcome.located);
-  if (odometry == Known::kYes) addMotion(arrived, *outcome.located);
+  if (odometry == Known::kYes) {
+    if (needs_.mounting) outcome.located->T_odom_base = T_odom_base(arrived.scan.stamp);
+    addMotion(arrived, 0, *outcome.located);
+  } else if (const auto lag = lagOf(arrived); lag && odometry == Known::kNot) {
+    addMotion(arrived, *lag, *outcome.located);
+  }
   explain(arrived, odometry, *outcome.located);
   addInertial(arrived, before, *outcome.located);
   return outcome;
@@ -201,9 +208,21 @@ void ScanLocator::place(const ArrivedScan& arrived,
   located.T_base_sensor = *located.T_base_sensor * head.T_mount_sensor(0);
 }
 
-void ScanLocator::addMotion(const ArrivedScan& arrived, LocatedScan& located) const {
-  const std::int64_t stamp = arrived.scan.stamp;
-  if (needs_.mounting) located.T_odom_base = T_odom_base(stamp);
+// How far odometry is behind that does not reach the end of the sweep, and yet tells how the sensor
+// has been moving a moment ago.
+std::optional<std::int64_t> ScanLocator::lagOf(const ArrivedScan& arrived) const {
+  if (!needs_.odometry || !source_ || source_ == OdometrySource::kNone) return std::nullopt;
+  const auto newest = newestOdometry(arrived.carriedFrame());
+  if (!newest) return std::nullopt;
+  const std::int64_t lag = arrived.scan.end() - *newest;
+  if (lag <= 0 || lag > kConstants.oldest_motion) return std::nullopt;
+  return lag;
+}
+
+// The motion of so long ago stands for that of the sweep.
+void ScanLocator::addMotion(const ArrivedScan& arrived, std::int64_t lag,
+                            LocatedScan& located) const {
+  const std::int64_t stamp = arrived.scan.stamp - lag;
   const auto path = [&](double after) -> std::optional<Pose2> {
     const auto pose = T_odom_carried(arrived.carriedFrame(), stamp + nanoseconds(after));
     if (!pose) return std::nullopt;
@@ -218,13 +237,14 @@ void ScanLocator::addMotion(const ArrivedScan& arrived, LocatedScan& located) co
     const auto head = located.upside_down ? motion::mirrored(*arrived.head) : *arrived.head;
     located.scan.setSensorMotion(motion::headMotion(head, *motion));
   }
-  addMotionNoise(arrived, located);
+  addMotionNoise(arrived, lag, located);
 }
 
-void ScanLocator::addMotionNoise(const ArrivedScan& arrived, LocatedScan& located) const {
+void ScanLocator::addMotionNoise(const ArrivedScan& arrived, std::int64_t lag,
+                                 LocatedScan& located) const {
   if (located.scan.sensorMotion().empty()) return;
-  const auto start = T_odom_base(arrived.scan.stamp);
-  const auto end = T_odom_base(arrived.scan.end());
+  const auto start = T_odom_base(arrived.scan.stamp - lag);
+  const auto end = T_odom_base(arrived.scan.end() - lag);
   // Without a base, what carries the sensor is taken for it.
   const Pose2 T_start_end =
       start && end ? geometry::between(*start, *end) : located.scan.sensorMotion().back();

@@ -15,7 +15,7 @@ void ScannerProfile::visit(config::FieldVisitor& visitor) {
   visitor.number("range_max", range_max, {"m", {1e-3, 1000.0}, "farthest range"});
   visitor.number("rate", rate, {"Hz", {0.1, 1000.0}, "sweeps a second"});
   visitor.number("revolution", revolution,
-                 {"s", {0.0, 10.0}, "time of a turn of the mirror; 0: all at once"});
+                 {"s", {0.0, 100.0}, "time of a turn of the mirror; 0: all at once"});
   visitor.number("resolution", resolution,
                  {"m", {0.0, 1.0}, "step of the reported range; 0: as computed"});
   visitor.number("dropout", dropout, {"1", {0.0, 1.0}, "share of the beams without an answer"});

@@ -1,5 +1,5 @@
-#include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/imu_conversion.h"
+#include "sightline/bridge/bad_message.h"
 
 #include <limits>
 #include <stdexcept>

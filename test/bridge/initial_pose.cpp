@@ -1,5 +1,5 @@
-#include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/initial_pose.h"
+#include "sightline/bridge/bad_message.h"
 
 #include <limits>
 

@@ -232,7 +232,7 @@ TEST_F(LinesInMotion, ALineHoldsAtTheStampWhateverTheSweep) {
   EXPECT_NEAR(arrays[0].segments[0].phi, 0.0, 0.005);
 }
 
-TEST_F(LinesInMotion, OdometryThatLagsIsNotWaitedFor) {
+TEST_F(LinesInMotion, TheMotionOfAMomentAgoServesWhereOdometryLags) {
   const ros::Time stamp = ros::Time::now() + ros::Duration(10.0);
   turn(stamp, -0.1);
   answers();

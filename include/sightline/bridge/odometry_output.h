@@ -16,7 +16,8 @@ class OdometryOutput {
  public:
   OdometryOutput(Output& output, const pipeline::Frames& frames, bool publish_tf);
 
-  /// Returns why there is none for this scan; empty where there is one.
+  /// Returns why there is none for this scan; empty where there is one, and for scanners that it is
+  /// not from.
   std::string write(const pipeline::Estimates& estimates);
 
   /// How many scans were matched with this outcome.

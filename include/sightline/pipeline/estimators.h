@@ -28,7 +28,9 @@ struct Lines {
   std::vector<geometry::Arc> arcs;
 };
 
-/// What the estimators found of one scan; nothing of those that do not run, or refused it.
+/// What the estimators found of one scan; nothing of those that do not run, or refused it. Odometry
+/// comes from the first scanner alone, and not from a frame of unknown mounting once its mounting
+/// has been known.
 struct Estimates {
   LocatedScan located;  ///< as the estimators saw it: without floor, motion filled in
   std::optional<Lines> lines;

@@ -28,7 +28,8 @@ struct FeedCounts {
   std::map<std::string, std::size_t> dropped;  ///< by reason
 };
 
-/// Takes scans as they arrive and gives them back in the order of their stamps, each completed by
+/// Takes scans as they arrive and gives them back, those that wait in the order of their stamps and
+/// each scanner's own always so, completed by
 /// transforms, odometry and an inertial sensor, or with the reason why it is not used. A scan waits
 /// for what belongs to it as long as the settings' patience lasts.
 ///
@@ -68,8 +69,9 @@ class ScanFeed {
   ScanLocator locator_;
   std::deque<ArrivedScan> waiting_;  // in the order of their stamps
   std::vector<FeedCounts> counts_;
-  std::optional<std::int64_t> before_;  // stamp of the last scan that was located
-  bool clock_restarted_ = false;        // and no scan has been located since
+  std::optional<std::int64_t> newest_;               // stamp of the newest scan that was located
+  std::vector<std::optional<std::int64_t>> before_;  // of the last one, by scanner
+  bool clock_restarted_ = false;                     // and no scan has been located since
 };
 
 }  // namespace sightline::pipeline

@@ -52,7 +52,7 @@ class ScanLocator {
   /// The clock was set back to about this time: forgets what is from later.
   void restartClock(std::int64_t stamp);
 
-  /// @param before  stamp of the scan before, where there is one [ns]
+  /// @param before  stamp of the same scanner's scan before, where there is one [ns]
   Outcome locate(const ArrivedScan& arrived, const Patience& patience,
                  std::optional<std::int64_t> before);
 
@@ -76,8 +76,9 @@ class ScanLocator {
                                                   std::int64_t stamp) const;
   void place(const ArrivedScan& arrived, const std::optional<Eigen::Isometry3d>& T_base_carried,
              LocatedScan& located);
-  void addMotion(const ArrivedScan& arrived, LocatedScan& located) const;
-  void addMotionNoise(const ArrivedScan& arrived, LocatedScan& located) const;
+  void addMotion(const ArrivedScan& arrived, std::int64_t lag, LocatedScan& located) const;
+  std::optional<std::int64_t> lagOf(const ArrivedScan& arrived) const;
+  void addMotionNoise(const ArrivedScan& arrived, std::int64_t lag, LocatedScan& located) const;
   void addJitter(const ArrivedScan& arrived, LocatedScan& located) const;
   void explain(const ArrivedScan& arrived, Known odometry, LocatedScan& located) const;
   void addInertial(const ArrivedScan& arrived, std::optional<std::int64_t> before,

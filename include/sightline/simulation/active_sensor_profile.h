@@ -17,6 +17,9 @@ struct ActiveSensorProfile : triangulation::SensorProfile {
   double jitter = 0.0;     ///< of the true head angle about the reported one [rad], pears eq. 23
   RigConfig rig;           ///< for calibrate_sensor
 
+  // Written out, as GCC 12 warns of an aggregate's base that it were not initialised.
+  ActiveSensorProfile() {}
+
   void visit(config::FieldVisitor& visitor);
   /// Throws config::Error with file, line where one is to blame, and key.
   static ActiveSensorProfile readFile(const std::string& path);
