@@ -79,7 +79,7 @@ TEST_F(ScanFeedTest, GoesOnWithoutWhatDoesNotComeInTime) {
   config.patience = 0.3;
   start(config);
   transforms_.mount("laser", Pose2());
-  drive(10.0, 10.1);
+  drive(9.0, 9.6);
   feed_->add(0, sweep(10.2), at(10.3));
   EXPECT_TRUE(all(10.5).empty());
   const auto results = all(10.61);
@@ -88,6 +88,19 @@ TEST_F(ScanFeedTest, GoesOnWithoutWhatDoesNotComeInTime) {
   EXPECT_FALSE(results[0].located->motion_known);
   EXPECT_EQ(results[0].located->no_odometry, "no odometry from odom to base_link at its time");
   EXPECT_EQ(feed_->counts(0).without_motion, 1U);
+}
+
+// The velocity is that of a moment ago; where the robot is at the stamp nobody knows.
+TEST_F(ScanFeedTest, TheMotionOfAMomentAgoServesWhereOdometryLags) {
+  start();
+  transforms_.mount("laser", Pose2());
+  drive(9.0, 10.15);
+  feed_->add(0, sweep(10.2), at(10.3));
+  const auto results = all(10.9);
+  ASSERT_EQ(results.size(), 1U);
+  EXPECT_FALSE(results[0].located->T_odom_base);
+  EXPECT_TRUE(results[0].located->motion_known);
+  EXPECT_NEAR(results[0].located->scan.sensorMotion().back().x(), 0.1, 1e-6);
 }
 
 TEST_F(ScanFeedTest, DoesNotWaitForOdometryThatBeganLater) {

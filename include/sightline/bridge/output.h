@@ -58,7 +58,7 @@ Port<Message> Output::open(const std::string& topic, bool latched) {
 
 template <class Message>
 Port<Message> Output::openTopic(const std::string& topic, bool latched) {
-  constexpr std::uint32_t kQueue = 10;
+  constexpr std::uint32_t kQueue = 100;  // scans that waited for something come in a burst
   const ros::Publisher publisher = node_->advertise<Message>(topic, kQueue, latched);
   // By pointer, so that nodelets of one process are not served copies.
   return {[publisher](const Message& message) {
