@@ -137,11 +137,12 @@ TEST(Robots, NamesThatTwoHaveEndTheNode) {
               HasSubstr("another has the frame 'laser' already"));
   EXPECT_THAT(endOf("scanners: {a: {frame: base_link}}"),
               HasSubstr("another has the frame 'base_link' already"));
-  EXPECT_THAT(endOf("active_sensors: {a: {}, b: {scan: s, range_scan: r, head_command: h, "
+  EXPECT_THAT(endOf("active_sensors: {a: {x: 0.1}, b: {scan: s, range_scan: r, head_command: h, "
                     "mount_frame: m, head_frame: n, frame: p}}"),
               HasSubstr("another has the joint 'head_joint' already"));
-  EXPECT_THAT(endOf("robots: {c: {start_pose: [1, 2]}}"), HasSubstr("expected a pose: [x, y, yaw]"));
-  EXPECT_THAT(endOf("movers: {d: {}}"), HasSubstr("has to name a path file"));
+  EXPECT_THAT(endOf("robots: {c: {start_pose: [1, 2]}}"),
+              HasSubstr("expected a pose: [x, y, yaw]"));
+  EXPECT_THAT(endOf("movers: {d: {radius: 0.2}}"), HasSubstr("has to name a path file"));
 }
 
 }  // namespace
