@@ -98,10 +98,11 @@ ScanLocator::Known ScanLocator::findMounting(const ArrivedScan& arrived, const P
                                              std::optional<Eigen::Isometry3d>& T_base_carried) {
   if (!needs_.mounting) return Known::kNot;
   const std::string& frame = arrived.carriedFrame();
+  // The newest first: transforms that come in between must not look like ones that began later.
+  const auto newest = transforms_.newest(frames_.base, frame);
   T_base_carried = transforms_.at(frames_.base, frame, arrived.scan.stamp);
   if (T_base_carried) return remember(frame, *T_base_carried);
   const auto known = mountings_.find(frame);
-  const auto newest = transforms_.newest(frames_.base, frame);
   if (known == mountings_.end() && !newest) return waitForFirst(frame, patience);
   const bool began_later = newest && newest->stamp.value_or(0) > arrived.scan.stamp;
   if (patience.usual && !began_later) return Known::kWait;
@@ -157,8 +158,9 @@ ScanLocator::Known ScanLocator::findOdometry(const ArrivedScan& arrived, const P
   if (!source_) return waitForFirst(what, patience);
   const std::int64_t stamp = arrived.scan.stamp;
   const std::int64_t end = std::max(stamp, arrived.scan.end());
-  if (T_odom_carried(frame, stamp) && T_odom_carried(frame, end)) return Known::kYes;
+  // The newest first, as with the mounting.
   const auto newest = newestOdometry(frame);
+  if (T_odom_carried(frame, stamp) && T_odom_carried(frame, end)) return Known::kYes;
   if (!newest) return waitForFirst(what, patience);
   if (*newest >= end) return Known::kNever;
   return patience.usual && end - *newest < kConstants.silence ? Known::kWait : Known::kNot;

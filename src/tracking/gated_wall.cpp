@@ -9,11 +9,16 @@ namespace sightline::tracking {
 
 namespace {
 
-// The noise of a typical beam: half the trace holds for beams along the wall's normal as for those
-// across it.
-double typicalSigma(const std::vector<BeamPoint>& points) {
+// The median noise of the beams: half the trace holds for beams along the wall's normal as for
+// those across it. One beam alone would not do, where the noise is estimated from the scan itself.
+double medianSigma(const std::vector<BeamPoint>& points) {
   if (points.empty()) return 0.0;
-  return std::sqrt(0.5 * points[points.size() / 2].covariance.trace());
+  std::vector<double> traces;
+  traces.reserve(points.size());
+  for (const BeamPoint& point : points) traces.push_back(point.covariance.trace());
+  const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
+  std::nth_element(traces.begin(), middle, traces.end());
+  return std::sqrt(0.5 * *middle);
 }
 
 }  // namespace
@@ -24,7 +29,7 @@ std::vector<GatedWall> gateWalls(const GateConfig& config,
                                  const std::vector<BeamPoint>& points) {
   std::vector<GatedWall> gated;
   gated.reserve(walls.size());
-  const double sigma = typicalSigma(points);
+  const double sigma = medianSigma(points);
   for (const world::Wall* wall : walls) {
     gated.push_back({ValidationGate(config, *wall, wall_sigma, T_map_base, sigma), {}});
     if (wall->spans.empty()) continue;

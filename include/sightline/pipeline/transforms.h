@@ -9,7 +9,7 @@
 namespace sightline::pipeline {
 
 /// Where frames are in each other over time: tf on a robot, the transforms of a bag, a pose history
-/// in tests.
+/// in tests. They may grow between two questions, as another thread fills them.
 class Transforms {
  public:
   /// A transform and how far it is known.
