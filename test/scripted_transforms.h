@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -29,15 +30,14 @@ class ScriptedTransforms : public pipeline::Transforms {
     odometry_.add(stamp, T_odom_base);
   }
 
+  /// Lets something happen, once, right after the next question: transforms of another thread.
+  void afterNextQuestion(std::function<void()> happens) { happens_ = std::move(happens); }
+
   std::optional<Eigen::Isometry3d> at(const std::string& target, const std::string& source,
                                       std::int64_t stamp) const override {
-    if (target == "base_link") return mountingAt(source, stamp);
-    const auto T_odom_base = odometry_.at(stamp);
-    if (target != "odom" || !T_odom_base) return std::nullopt;
-    if (source == "base_link") return geometry::inSpace(*T_odom_base);
-    const auto T_base_sensor = mountingAt(source, stamp);
-    if (!T_base_sensor) return std::nullopt;
-    return geometry::inSpace(*T_odom_base) * *T_base_sensor;
+    const auto transform = known(target, source, stamp);
+    letHappen();
+    return transform;
   }
 
   std::optional<Newest> newest(const std::string& target,
@@ -54,11 +54,27 @@ class ScriptedTransforms : public pipeline::Transforms {
       stamp = std::min(stamp, turret->second.newest());
     }
     if (stamp != std::numeric_limits<std::int64_t>::max()) result.stamp = stamp;
-    if (const auto transform = at(target, source, stamp)) result.T_target_source = *transform;
+    if (const auto transform = known(target, source, stamp)) result.T_target_source = *transform;
+    letHappen();
     return result;
   }
 
  private:
+  void letHappen() const {
+    if (const auto happens = std::exchange(happens_, nullptr)) happens();
+  }
+
+  std::optional<Eigen::Isometry3d> known(const std::string& target, const std::string& source,
+                                         std::int64_t stamp) const {
+    if (target == "base_link") return mountingAt(source, stamp);
+    const auto T_odom_base = odometry_.at(stamp);
+    if (target != "odom" || !T_odom_base) return std::nullopt;
+    if (source == "base_link") return geometry::inSpace(*T_odom_base);
+    const auto T_base_sensor = mountingAt(source, stamp);
+    if (!T_base_sensor) return std::nullopt;
+    return geometry::inSpace(*T_odom_base) * *T_base_sensor;
+  }
+
   std::optional<Eigen::Isometry3d> mountingAt(const std::string& frame, std::int64_t stamp) const {
     const auto fixed = mountings_.find(frame);
     if (fixed != mountings_.end()) return fixed->second;
@@ -69,6 +85,7 @@ class ScriptedTransforms : public pipeline::Transforms {
     return geometry::inSpace(*pose);
   }
 
+  mutable std::function<void()> happens_;
   std::map<std::string, Eigen::Isometry3d> mountings_;
   std::map<std::string, motion::PoseHistory> turrets_;
   motion::PoseHistory odometry_{std::numeric_limits<std::int64_t>::max() / 2};
