@@ -8,7 +8,7 @@
 
 namespace sightline::bridge {
 
-/// How a CARMEN log becomes a bag.
+/// Options for making a bag of a CARMEN log.
 struct CarmenBagOptions {
   bool reverse_from_tv = false;  ///< repair odometry that counts forward while the robot backs
   double odometry_delay = 0.0;   ///< [s] the odometry is stamped later by this
@@ -17,7 +17,7 @@ struct CarmenBagOptions {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// What a bag was filled with.
+/// Contents of the bag that was written.
 struct CarmenBagContents {
   std::size_t scans = 0;
   std::size_t odometry = 0;

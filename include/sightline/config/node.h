@@ -29,9 +29,9 @@ class Node {
   static Node parse(const std::string& text, const std::string& source);
 
   bool isMap() const;
-  /// Nothing written: an empty document, or a key without a value.
+  /// True where nothing is written: an empty document, or a key without a value.
   bool isNull() const;
-  /// Nothing written, an empty text or an empty sequence.
+  /// True where nothing is written, or an empty text or an empty sequence.
   bool isEmpty() const;
   bool has(const std::string& key) const;
   /// The value of a key that has to be there.
@@ -57,7 +57,7 @@ class Node {
   std::vector<std::string> texts() const;
   /// A sequence of finite numbers.
   std::vector<double> numbers(Range range = {}) const;
-  /// As above, of exactly `count` numbers.
+  /// The same, of exactly `count` numbers.
   std::vector<double> numbers(std::size_t count, Range range = {}) const;
   /// [x, y, yaw] [m, m, rad].
   geometry::Pose2 pose(Range range = {}) const;

@@ -7,7 +7,7 @@
 
 namespace sightline::dead_reckoning {
 
-/// What a match says of a pose.
+/// Measurement of a pose by a match.
 struct PoseMeasurement {
   /// Information on the coordinates (x, y, θ); may be singular, zero where there was no match.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();

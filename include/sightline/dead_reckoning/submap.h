@@ -46,7 +46,7 @@ class Submap {
 
   /// Oldest first.
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
-  /// What a place [m, odom] is to the newest keyframe that knows, of the newest 50.
+  /// Sight of a place [m, odom] by the newest keyframe that knows it, among the newest 50.
   Sight sightOf(const Eigen::Vector2d& point) const;
   const std::vector<Surfel>& surfels() const { return surfels_; }
   /// Another number after each change.

@@ -37,7 +37,7 @@ class LineFilter {
 
  private:
   static constexpr std::size_t kBlock = kPadding;
-  /// Of kBlock observations against one prediction.
+  /// Residuals of kBlock observations against one prediction.
   struct Validation {
     BeamResiduals residuals[kBlock / kLanes];
     float excess[kBlock];    // beyond the gate where positive

@@ -42,7 +42,7 @@ struct RoomsConfig {
   geometry::UncertainPose2 start() const;
 };
 
-/// Where the scans come from and how they are completed: what all estimators share.
+/// Topics of the scans and the way they are completed: settings that all estimators share.
 struct InputConfig {
   std::vector<std::string> scans;        ///< topics of sensor_msgs/LaserScan
   std::vector<std::string> range_scans;  ///< topics of sightline/RangeScan

@@ -14,7 +14,7 @@
 
 namespace sightline::scan {
 
-/// What a beam came back with (REP-117).
+/// Kind of answer that a beam came back with (REP-117).
 enum class ReturnKind : std::uint8_t {
   kValid,    ///< a range within the limits
   kTooNear,  ///< −Inf, or below range_min: something is there, too close to measure
@@ -69,7 +69,7 @@ class Scan {
   bool isValid(std::size_t beam) const { return kinds_[beam] == ReturnKind::kValid; }
   /// Direction of a beam in the sensor's frame at the stamp.
   Eigen::Vector2d direction(std::size_t beam) const;
-  /// Where a valid beam ended, in the sensor's frame at the stamp [m].
+  /// End of a valid beam, in the sensor's frame at the stamp [m].
   Eigen::Vector2d point(std::size_t beam) const;
   /// Covariance of point(beam) [m²], first order in the angle; the motion's noise is not in it.
   Eigen::Matrix2d covariance(std::size_t beam) const;

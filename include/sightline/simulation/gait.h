@@ -12,8 +12,8 @@
 
 namespace sightline::simulation {
 
-/// How the trunk of a walking person moves about the way that the person goes. The amplitudes are
-/// the largest, at walking speed; a person who stands still keeps still.
+/// Motion of the trunk of a walking person about the person's path. The amplitudes are the largest,
+/// at walking speed; a person who stands still keeps still.
 struct GaitConfig {
   double height = 1.2;                    ///< of the point that the trunk turns about [m]
   double speed = 1.3;                     ///< of a person who walks [m/s]
@@ -29,7 +29,7 @@ struct GaitConfig {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// Where the trunk is beside the upright, level pose that the person's way would give it.
+/// Displacement of the trunk from the upright, level pose on the person's path.
 struct BodyMotion {
   double sway = 0.0;  ///< to the left [m]
   double bob = 0.0;   ///< upwards [m]
@@ -42,7 +42,7 @@ struct BodyMotion {
   Eigen::Isometry3d outOfPlane(double height) const;
 };
 
-/// On the straight line from a (ratio 0) to b (ratio 1).
+/// Motion on the straight line from a (ratio 0) to b (ratio 1).
 BodyMotion interpolate(const BodyMotion& a, const BodyMotion& b, double ratio);
 
 /// The trunk of a person who walks at changing speed.

@@ -15,8 +15,8 @@ class PseudoTerminal {
   /// `path` becomes a link to the terminal. A link to another terminal is replaced; nothing else
   /// is. Throws config::Error naming the path.
   explicit PseudoTerminal(std::string path);
-  /// As a cable that is pulled: the port at the other end is gone, and the link unless it leads
-  /// elsewhere by now.
+  /// Ends like a cable that is pulled: the port at the other end is gone, and the link unless it
+  /// leads elsewhere by now.
   ~PseudoTerminal();
   PseudoTerminal(const PseudoTerminal&) = delete;
   PseudoTerminal& operator=(const PseudoTerminal&) = delete;
