@@ -107,7 +107,7 @@ void addArc(const geometry::Arc& arc, Marker& marker) {
   }
 }
 
-// In a direction from the centre, the circle is as uncertain as centre and radius are there.
+// The circle is as uncertain in a direction as its centre and radius are there.
 void addArcBand(const geometry::Arc& arc, Marker& marker) {
   std::array<geometry_msgs::Point, 2> before;
   for (int i = 0; i <= kArcSteps; ++i) {

@@ -31,7 +31,7 @@ bool overlaps(const Piece& piece, const Run& run, std::size_t revolution) {
   return false;
 }
 
-// Of the straight line through the returns that minimises their squared distances, each return
+// Cost of the straight line through the returns that minimises their squared distances, each return
 // weighted alike: good enough to be compared with.
 double costOfLine(const std::vector<fitting::ArcReturn>& returns, double gate_squared) {
   Eigen::Vector2d middle(0, 0);
@@ -236,7 +236,7 @@ bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run&
   // A line does not say where it ends, a circle does.
   const double parameters = kArcs.line_parameters + static_cast<double>(fit.tangents);
   lines = costOfLine(observations_.returns, gate_squared_) + parameters * price;
-  // What is not seen to end on both sides may go on straight behind what hides it.
+  // An arc whose ends are not both seen may go on straight behind what hides it.
   return arc + (fit.tangents < 2 ? gate_squared_ : 0.0) < lines;
 }
 

@@ -84,7 +84,7 @@ BodyMotion Carrier::bodyMotion(std::int64_t time) const {
   const double ago = static_cast<double>(time_ - time) / static_cast<double>(kStep);
   const auto steps = static_cast<std::size_t>(ago);
   const std::size_t last = body_motions_.size() - 1;
-  // Before the person was there, the trunk stood as it did first.
+  // The trunk stood before the person was there as it did first.
   if (steps >= last) return body_motions_.front();
   return interpolate(body_motions_[last - steps], body_motions_[last - steps - 1],
                      ago - static_cast<double>(steps));

@@ -27,7 +27,7 @@ Eigen::Vector3d inPlane(const Eigen::Vector2d& point) {
   return {point.x(), point.y(), 0.0};
 }
 
-// In plan view [m].
+// Offset in plan view [m].
 double offsetFrom(const world::Ray& axis, const Eigen::Vector3d& point) {
   const Eigen::Vector2d along = axis.direction.head<2>().normalized();
   const Eigen::Vector2d way = (point - axis.origin).head<2>();

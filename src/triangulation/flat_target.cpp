@@ -7,7 +7,7 @@ namespace sightline::triangulation {
 
 namespace {
 
-// Where the parallel ray that runs `offset` to the left of the axis meets the target.
+// Point where the parallel ray that runs `offset` to the left of the axis meets the target.
 Eigen::Vector2d meet(double depth, double angle, double offset) {
   return {depth, (depth * std::sin(angle) + offset) / std::cos(angle)};
 }

@@ -18,7 +18,7 @@ namespace {
 
 using Information = Eigen::Matrix<double, kParameterCount, kParameterCount>;
 
-// What the solver asks for.
+// Interface that the solver asks for.
 struct LeastSquaresProblem {
   using Scalar = double;
   using InputType = Eigen::VectorXd;
@@ -189,7 +189,7 @@ ParameterVector solve(const CalibrationResiduals& residuals, const ParameterVect
   return parameters;
 }
 
-// At a minimum the next step of Gauss and Newton is nothing against the standard deviations; at the
+// The next step of Gauss and Newton is nothing against the standard deviations at a minimum; at the
 // end of a parameter's range, or where the solver gave up, it is not.
 void requireMinimum(const CalibrationResiduals& residuals, const ParameterVector& at,
                     const Eigen::VectorXd& values, const Information& covariance,

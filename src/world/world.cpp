@@ -30,7 +30,7 @@ struct Interval {
   double to = std::numeric_limits<double>::infinity();
 };
 
-// Where along the ray it is within the (endless) round wall of a disc; empty if from >= to.
+// Stretch of the ray within the (endless) round wall of a disc; empty if from >= to.
 Interval withinRound(const WorldDisc& disc, const Ray& ray) {
   const Eigen::Vector2d way = ray.direction.head<2>();
   const Eigen::Vector2d offset = ray.origin.head<2>() - disc.centre;

@@ -43,7 +43,7 @@ class WorldFile {
   }
 
  private:
-  // What every upright thing has.
+  // Fields of every upright thing.
   struct Upright {
     double bottom;
     double top;
