@@ -70,8 +70,8 @@ Eigen::Vector2d meanPoint(const BeamArray& beams, std::size_t first, std::size_t
 }
 
 // Whether the middle third of a run is off the line through the other two by more than the standard
-// deviation of that. What is not gains nothing by being round, and most of what is left over in a
-// room is of that kind.
+// deviation of that. Other runs gain nothing by being round, and most that are left over in a room
+// are of that kind.
 bool bends(const BeamArray& beams, const Run& run) {
   const std::size_t third = run.size() / 3;
   const Eigen::Vector2d first = meanPoint(beams, run.first, run.first + third);

@@ -30,8 +30,8 @@ void SensorHead::command(const HeadCommand& command) {
 
 // The step at which it can come to rest the soonest.
 double SensorHead::restingPlace() const {
-  const double way = 0.5 * rate_ * std::abs(rate_) / limits_.acceleration;
-  return limits_.rounded(angle_ + way);
+  const double braking_distance = 0.5 * rate_ * std::abs(rate_) / limits_.acceleration;
+  return limits_.rounded(angle_ + braking_distance);
 }
 
 // Position that the head is going to: at a commanded rate it goes on until it meets a limit.

@@ -53,10 +53,10 @@ TrackerState TrackMemory::judge(const TrackingContext& context, const UncertainP
   const bool outside =
       context.map.rooms()[room_].distance(pose.mean.translation()) > kRooms.door_reach;
   if (tells || outside) {
-    misfits_ = outside || agreement.quality() < config.lost_quality ? misfits_ + 1 : 0;
+    lost_scans_ = outside || agreement.quality() < config.lost_quality ? lost_scans_ + 1 : 0;
   }
-  if (misfits_ >= config.lost_scans) return TrackerState::kLost;
-  const bool is_degraded = misfits_ > 0 || isVague(config, pose.covariance);
+  if (lost_scans_ >= config.lost_scans) return TrackerState::kLost;
+  const bool is_degraded = lost_scans_ > 0 || isVague(config, pose.covariance);
   return is_degraded ? TrackerState::kDegraded : TrackerState::kTracking;
 }
 

@@ -14,9 +14,9 @@ Eigen::Vector2d meet(double depth, double angle, double offset) {
 
 // Light that the lens gathers from there, up to a factor.
 double gathered(const Eigen::Vector2d& spot, const Eigen::Vector2d& lens) {
-  const Eigen::Vector2d way = spot - lens;
-  const double squared = way.squaredNorm();
-  return way.x() / (squared * std::sqrt(squared));
+  const Eigen::Vector2d displacement = spot - lens;
+  const double squared = displacement.squaredNorm();
+  return displacement.x() / (squared * std::sqrt(squared));
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ void takeOutShift(const ParameterVector& at, double detector_length, double beam
   }
 }
 
-double misfit(const CalibrationResiduals& residuals, const ParameterVector& at) {
+double chiSquareAt(const CalibrationResiduals& residuals, const ParameterVector& at) {
   try {
     return residuals.at(at).squaredNorm();
   } catch (const config::Error&) {
@@ -176,7 +176,7 @@ ParameterVector startFor(const CalibrationResiduals& residuals, const ScanOrigin
   const auto linear = startIntrinsics(residuals.images(), origin, nominal.detector_length);
   if (!linear) return as_built;
   ParameterVector solved = toVector(*linear, origin);
-  return misfit(residuals, solved) < misfit(residuals, as_built) ? solved : as_built;
+  return chiSquareAt(residuals, solved) < chiSquareAt(residuals, as_built) ? solved : as_built;
 }
 
 ParameterVector solve(const CalibrationResiduals& residuals, const ParameterVector& start) {

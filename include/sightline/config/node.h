@@ -38,8 +38,8 @@ class Node {
   Node at(const std::string& key) const;
   /// All entries of a map, in the order of the file.
   std::vector<std::pair<std::string, Node>> entries() const;
-  /// All items of a sequence; an absent or empty optional sequence is `{}` where the caller asks
-  /// has() first. A text in brackets, '[0, 0, 0]', is a sequence too: command lines and launch
+  /// All items of a sequence; throws where there is none, so ask has() before reading an optional
+  /// one. A text in brackets, '[0, 0, 0]', is a sequence too: command lines and launch
   /// files cannot say it otherwise.
   std::vector<Node> items() const;
   /// Refuses any key that is not listed: a typing error must not pass for a default.

@@ -11,7 +11,7 @@
 
 namespace sightline::dead_reckoning {
 
-/// Relation of a place to somebody who looks towards it.
+/// Relation of a place to a scanner that looks towards it.
 enum class Sight : std::uint8_t {
   kUnknown,  ///< no beam went there
   kFree,     ///< beams passed through

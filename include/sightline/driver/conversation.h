@@ -51,7 +51,7 @@ class Conversation {
   /// returns.
   Conversation(ConversationConfig config, OnScan on_scan);
 
-  /// The line has been opened: whoever is at its end has to say so.
+  /// Starts on a line that has just been opened: the device at its end has to identify itself.
   void open(const Moment& now);
   void receive(ByteView bytes, const Moment& now);
   /// Bytes that are due to be sent; call it every hundredth of a second or so. Good until the next
@@ -120,7 +120,7 @@ class Conversation {
   std::size_t broken_before_ = 0;  // by then
   std::int64_t last_asked_ = 0;
   std::int64_t last_ping_ = 0;
-  bool greet_ = false;  // a device has just said who it is
+  bool just_identified_ = false;  // a device has just identified itself
 };
 
 }  // namespace sightline::driver

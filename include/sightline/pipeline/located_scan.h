@@ -11,7 +11,7 @@
 
 namespace sightline::pipeline {
 
-/// A scan with all that is known of how it was taken. What is missing is not known.
+/// A scan with all that is known of how it was taken; a member that is absent is not known.
 struct LocatedScan {
   std::size_t scanner = 0;  ///< in the order in which scanners were added
   /// The scan as a level sensor the right way up sees it, with the sensor's motion within the sweep

@@ -101,7 +101,7 @@ class Carrier {
   std::int64_t reports_ = 0;
   std::int64_t last_report_ = 0;  // [ns]
   std::int64_t time_ = 0;
-  motion::PoseHistory way_;  // T_map_base without the gait
+  motion::PoseHistory path_;  // T_map_base without the gait
   GaitConfig gait_config_;
   std::optional<Gait> gait_;
   std::deque<BodyMotion> body_motions_;  // one a step; the last one is that of now

@@ -55,20 +55,20 @@ class Gait {
   BodyMotion motion() const;
 
  private:
-  // Shares of the full amplitudes.
-  struct Vigour {
+  // Ratios of the amplitudes of a stride to the full ones.
+  struct StrideRatios {
     double pitch = 0.0;
     double roll = 0.0;
     double yaw = 0.0;
   };
-  Vigour drawVigour();
+  StrideRatios drawStride();
 
   GaitConfig config_;
   RandomStream random_;
-  double phase_ = 0.0;  // of the stride, two steps long, in [0, 2π)
-  double pace_ = 0.0;   // speed as a share of that of walking, smoothed
-  Vigour vigour_;       // at the start of the stride
-  Vigour next_vigour_;  // at its end
+  double phase_ = 0.0;        // of the stride, two steps long, in [0, 2π)
+  double pace_ = 0.0;         // speed as a share of that of walking, smoothed
+  StrideRatios stride_;       // at the start of the stride
+  StrideRatios next_stride_;  // at its end
 };
 
 }  // namespace sightline::simulation

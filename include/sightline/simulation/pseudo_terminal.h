@@ -4,8 +4,8 @@
 
 namespace sightline::simulation {
 
-/// A serial line without a cable: whoever opens `path` as a serial port talks to handle(), which
-/// never blocks.
+/// A serial line without a cable: a program that opens `path` as a serial port talks to handle(),
+/// which never blocks.
 ///
 /// Once nobody has the port open any more, reading from the handle fails with EIO. What its last
 /// user did to the port outlives him then: a killed program's claim (TIOCEXCL) would keep everybody

@@ -31,8 +31,8 @@ struct ParameterEstimate {
 
 /// Estimates f, d, γ, s, the scan origin and the projected vergence jointly, by non-linear least
 /// squares over plain and striped targets; image positions have the noise of pears eq. 2. Starts
-/// from linear least squares, or from the nominal sensor where that fits better. Of the striped
-/// targets only the edges are used: between them an image position says what those of the plain
+/// from linear least squares, or from the nominal sensor where that fits better. Only the edges of
+/// the striped targets are used: between them an image position says what those of the plain
 /// ones say, and near one the stripes pull the centroid of the light.
 ///
 /// `nominal` is what the sensor was built to be: its scan, its detector and its noise current are
