@@ -202,7 +202,7 @@ void DeadReckoner::learn(const Match& match) {
   if (match.begins_anew) matcher_->clear();
   const bool had_reference = matcher_->hasReference();
   const double share_new = matcher_->learn(match.surfaces, T_odom_base_, match.outcome);
-  // Against a reference that begins with it the pose is certain, however long the gap was.
+  // The pose is certain against a reference that begins with it, however long the gap was.
   const bool begins = !had_reference && matcher_->hasReference();
   if (begins) bridged_ = 0.0;
   if (match.outcome.state == MatchState::kFailed) errors_.displace(match.motion_covariance);

@@ -53,7 +53,7 @@ void ClockConfig::visit(config::FieldVisitor& visitor) {
                   "constant part of a message's delay; negative: measured, as half of a ping's"});
 }
 
-// Against the last arrival: 32 bits are more than an hour.
+// Counts from the last arrival: 32 bits are more than an hour.
 double ClockEstimator::deviceSeconds(std::uint32_t device) const {
   return last_seconds_ + 1e-6 * static_cast<std::int32_t>(device - last_device_);
 }

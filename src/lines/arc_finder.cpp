@@ -181,7 +181,7 @@ void ArcFinder::observeTangent(const scan::Scan& scan, std::size_t beam, Side si
       scan.sensorMotion().empty() ? Eigen::Vector2d(0, 0) : scan.sensorMotion()[beam].translation();
   const double range = scan.ranges()[beam];
   const double step = range * (past - on).norm();
-  // Between two beams, each turned by the jitter.
+  // The tangent lies between two beams, each turned by the jitter.
   tangent.variance = step * step / 12.0 + 0.5 * scan.motion_noise.jitter * range * range;
   observations_.tangents.push_back(tangent);
   tangent_beams_.push_back(beam);

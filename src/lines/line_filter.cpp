@@ -31,7 +31,7 @@ class Gate {
  public:
   Gate(const LineEstimate& line, double gate_squared, double motion_noise)
       : gate_squared_(static_cast<float>(gate_squared)) {
-    // About the middle of the line, where rounding does least harm.
+    // Shifted to the middle of the line, where rounding does least harm.
     const Information& info = line.information;
     const double middle = -info.rho_phi / info.rho_rho;
     const double scale = gate_squared / info.determinant();
@@ -72,7 +72,7 @@ struct LineFilter::Moments {
     yy += weight * py * py;
   }
 
-  // About the centroid, along and across an axis.
+  // Moments about the centroid, along and across an axis.
   struct Turned {
     double across_across;
     double along_across;

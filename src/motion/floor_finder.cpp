@@ -139,7 +139,7 @@ std::optional<Eigen::Vector2d> FloorFinder::bestSlope(const scan::Scan& scan,
     for (std::size_t i = 0; i + apart < beams.size(); ++i) {
       const auto slope = slopeThrough(scan, beams[i], beams[i + apart]);
       if (!slope || slope->norm() > steepest) continue;
-      // Behind the scanner it falls where before it rises.
+      // A level line falls behind the scanner where it rises before it.
       if (std::abs(std::atan2(slope->y(), std::abs(slope->x()))) > kFloor.max_skew) continue;
       const long count = std::count_if(beams.begin(), beams.end(),
                                        [&](std::size_t beam) { return isOn(*slope, scan, beam); });

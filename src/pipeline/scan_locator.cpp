@@ -129,7 +129,7 @@ ScanLocator::Known ScanLocator::waitForFirst(const std::string& what, const Pati
   return Known::kNot;
 }
 
-// Automatic: transforms go before the topic, and what has been chosen stays, so that no step is
+// Chooses automatically: transforms go before the topic, and the choice stays, so that no step is
 // between poses of two origins.
 void ScanLocator::chooseSource(const std::string& frame) {
   if (source_) return;

@@ -172,7 +172,7 @@ void EmulatedDevice::work(std::int64_t now) {
   ship();
 }
 
-// While the device is silent, what comes is lost; it would be obeyed late otherwise.
+// Bytes that come while the device is silent are lost; they would be obeyed late otherwise.
 void EmulatedDevice::listen(std::int64_t now) {
   if (!terminal_) return;
   std::array<std::uint8_t, 4096> buffer{};

@@ -189,8 +189,8 @@ ParameterVector solve(const CalibrationResiduals& residuals, const ParameterVect
   return parameters;
 }
 
-// The next step of Gauss and Newton is nothing against the standard deviations at a minimum; at the
-// end of a parameter's range, or where the solver gave up, it is not.
+// Requires that the next Gauss-Newton step is small against the standard deviations, as it is at a
+// minimum; at the end of a parameter's range, or where the solver gave up, it is not.
 void requireMinimum(const CalibrationResiduals& residuals, const ParameterVector& at,
                     const Eigen::VectorXd& values, const Information& covariance,
                     const std::string& source) {

@@ -13,13 +13,13 @@ namespace sightline::motion {
 /// size. The sideways slip is not his, and his 1 % of the length is also taken for the white part.
 ///
 /// A step of odometry reports a length d and a turn a. What really happened is
-/// - a length of s·d, with noise of variance distance_sigma²·d along the way and lateral_sigma²·d
+/// - a length of s·d, with noise of variance distance_sigma²·d along the path and lateral_sigma²·d
 ///   across it,
 /// - a turn of (1 + steering_bias)·a + heading_bias_per_metre·d, with noise of variance
 ///   heading_sigma_per_metre²·d + steering_sigma²·|a|.
 /// The noises are random walks: each sigma is the standard deviation after the first metre or
-/// radian and grows with the square root of the way, so that the result does not depend on how the
-/// way is cut into steps.
+/// radian and grows with the square root of the path, so that the result does not depend on how the
+/// path is cut into steps.
 struct OdometryNoise {
   double scale_mean = 1.006;     ///< true length over measured length, mean over runs
   double scale_sigma = 0.01;     ///< its standard deviation over runs

@@ -25,8 +25,8 @@ enum class ReturnKind : std::uint8_t {
 /// Sorts a range into its kind by the limits of the geometry (`min <= r && r <= max` is valid).
 ReturnKind classify(double range, const ScanGeometry& geometry);
 
-/// One sweep of a planar range sensor: the type that everything which measures makes, and
-/// everything which estimates eats. Each vector holds one entry a beam, always.
+/// One sweep of a planar range sensor: made by all that measures, taken by all
+/// that estimates. Each vector holds one entry a beam, always.
 class Scan {
  public:
   std::int64_t stamp = 0;  ///< of the first beam [ns]

@@ -36,7 +36,7 @@ struct BodyMotion {
   double yaw = 0.0;   ///< [rad]
   geometry::Attitude attitude;
 
-  /// The part that lies in the plane, to be put after the pose of the way.
+  /// The part that lies in the plane, to be put after the pose on the path.
   geometry::Pose2 inPlane() const { return {0.0, sway, yaw}; }
   /// The rest, in the frame that this leaves, about a point `height` [m] above the floor.
   Eigen::Isometry3d outOfPlane(double height) const;

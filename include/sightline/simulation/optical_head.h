@@ -30,7 +30,7 @@ struct SpotImage {
   double image_position = 0.0;  ///< [m], weighted by their currents; 0 where there is no light
 };
 
-/// The light's way from the laser to the detector (pears section 3.3), without noise.
+/// Path of the light from the laser to the detector (pears section 3.3), without noise.
 class OpticalHead {
  public:
   /// Throws config::Error.
