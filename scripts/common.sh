@@ -1,4 +1,4 @@
-# What the scripts share; sourced by them.
+# Shared by the scripts, which source it.
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$(realpath -m "${SIGHTLINE_BUILD:-$repository/.build}")
 

@@ -19,7 +19,7 @@ constexpr double kRoomWidth = 4.0;   // along y [m]
 
 constexpr const char* kRoomMap = "rooms:\n  hall: {size: [6.0, 4.0]}\n";
 
-/// Where the robot is at a time [s].
+/// Pose of the robot at a time [s].
 inline geometry::Pose2 carmenRobotAt(double time) {
   return geometry::Pose2(-1.5, -1.0, 0.2) * geometry::Pose2::exp({0.3 * time, 0.0, 0.1 * time});
 }

@@ -15,7 +15,7 @@ class Gauss {
 
   double operator()(double sigma = 1.0) { return sigma * normal_(engine_); }
 
-  /// Of a given covariance, which may be semidefinite.
+  /// Draws from a given covariance, which may be semidefinite.
   template <int kSize>
   Eigen::Matrix<double, kSize, 1> operator()(
       const Eigen::Matrix<double, kSize, kSize>& covariance) {

@@ -23,7 +23,7 @@ class EndSetter : public config::FieldVisitor {
  public:
   explicit EndSetter(int wanted) : left_(wanted) {}
 
-  /// What was set; empty where the field list has fewer ends.
+  /// Name of the setting; empty where the field list has fewer ends.
   const std::string& name() const { return name_; }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace sightline::test {
 
-/// What holds for every setting of a configuration struct, from its field list alone.
+/// Tests that hold for every setting of a configuration struct, from its field list alone.
 template <class Config>
 class EverySetting : public testing::Test {};
 

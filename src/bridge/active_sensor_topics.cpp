@@ -15,7 +15,7 @@ void ActiveSensorNames::visit(config::FieldVisitor& visitor) {
   visitor.text("range_scan", range_scan, "topic of the scans with variances and head angles");
   visitor.text("scan", scan, "topic of the same scans as sensor_msgs/LaserScan");
   visitor.text("joint_states", joint_states, "topic of the head's position");
-  visitor.text("head_command", head_command, "topic of what the head shall do");
+  visitor.text("head_command", head_command, "topic of commands to the head");
   frames.visit(visitor);
 }
 

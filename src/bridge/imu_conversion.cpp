@@ -45,7 +45,7 @@ pipeline::ImuReading readImu(const sensor_msgs::Imu& message,
   const Eigen::Quaterniond R_world_imu(q.w, q.x, q.y, q.z);
   reading.attitude = geometry::Attitude::of(
       (R_world_imu.normalized() * R_base_imu.conjugate()).toRotationMatrix());
-  // Of a leaning base the heading turns about the vertical.
+  // The heading of a leaning base turns about the vertical.
   const auto& [roll, pitch] = *reading.attitude;
   if (std::cos(pitch) > 0.1) {
     reading.turn_rate =

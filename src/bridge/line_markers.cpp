@@ -107,7 +107,7 @@ void addArc(const geometry::Arc& arc, Marker& marker) {
   }
 }
 
-// In a direction from the centre, the circle is as uncertain as centre and radius are there.
+// The circle is as uncertain in a direction as its centre and radius are there.
 void addArcBand(const geometry::Arc& arc, Marker& marker) {
   std::array<geometry_msgs::Point, 2> before;
   for (int i = 0; i <= kArcSteps; ++i) {
@@ -124,7 +124,7 @@ void addArcBand(const geometry::Arc& arc, Marker& marker) {
 }
 
 template <class Feature>
-double misfit(const Feature& feature) {
+double reducedChiSquare(const Feature& feature) {
   return feature.chi_square /
          std::max<double>(1.0, static_cast<double>(feature.degrees_of_freedom));
 }
@@ -135,11 +135,11 @@ std::vector<LineMarkers::Label> labelsOf(const std::vector<geometry::LineSegment
   for (const auto& segment : segments) {
     labels.push_back({segment.ends.midpoint(),
                       fmt::format("{:.2f} m, {} beams\nchi2/dof {:.2f}", segment.ends.length(),
-                                  segment.beams, misfit(segment))});
+                                  segment.beams, reducedChiSquare(segment))});
   }
   for (const auto& arc : arcs) {
     labels.push_back({arc.centre, fmt::format("r {:.3f} m, {} beams\nchi2/dof {:.2f}", arc.radius,
-                                              arc.beams, misfit(arc))});
+                                              arc.beams, reducedChiSquare(arc))});
   }
   return labels;
 }

@@ -10,7 +10,7 @@ namespace {
 // Scans and readings that may queue up while a node is held up.
 constexpr std::uint32_t kScanQueue = 100;
 constexpr std::uint32_t kReadingQueue = 500;
-// How often waiting scans are asked after.
+// Time between two looks at the scans that wait.
 const ros::WallDuration kRound(0.005);
 
 std::int64_t steadyNow() {

@@ -41,7 +41,7 @@ struct FromNode {
   }
 };
 
-// What the documentation calls a kind of member, and what it says of its range.
+// Type and range of a member, in the words of the documentation.
 struct Kind {
   std::string type;
   std::string range;

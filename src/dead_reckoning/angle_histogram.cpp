@@ -32,7 +32,7 @@ std::vector<double> smoothed(const std::vector<double>& counts) {
   return result;
 }
 
-// Where a parabola through three values has its peak, in steps from the middle one.
+// Peak of a parabola through three values, in steps from the middle one.
 double peakOffset(double before, double here, double after) {
   const double curvature = before - 2.0 * here + after;
   return curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;

@@ -12,9 +12,9 @@ namespace {
 using geometry::Pose2;
 
 struct RasterTuning {
-  // Extent of the rasters from their centre, of the points that are counted from the sensor, of the
-  // centre's way after which they are drawn anew, and of the widest window that is searched, which
-  // leaves the rasters a margin for the points; all in metres.
+  // Lengths [m]: extent of the rasters from their centre; distance from the sensor up to which
+  // points are counted; path of the centre after which the rasters are drawn anew; widest window
+  // that is searched, which leaves the rasters a margin for the points.
   double reach = 24.0;
   double farthest = 16.0;
   double redraw_at = 4.0;

@@ -29,8 +29,8 @@ struct ReckonerTuning {
   // A sweep is corrected anew where the motion found moves its last beam by this much [m, rad].
   double sweep_position = 0.003;
   double sweep_heading = 0.001;
-  // How well the motion within a sweep is known, as a share of what a change of velocity makes of
-  // it, and the time over which that change is averaged [s].
+  // Uncertainty of the motion within a sweep, as a ratio of what a change of velocity makes of it,
+  // and the time over which that change is averaged [s].
   double sweep_unsure = 0.25;
   double acceleration_time = 0.15;
   // A match may be this much further off than the carrier can get: it has errors too [m, rad].
@@ -57,7 +57,7 @@ bool isLonger(const Eigen::Vector3d& moved) {
          std::abs(moved[2]) > kReckoner.sweep_heading;
 }
 
-// What the noise of the motion makes of a pose that a prediction and a match are merged to.
+// Covariance that the noise of the motion makes of a pose merged of prediction and match.
 Eigen::Matrix3d motionCovariance(const UncertainPose2& predicted, const MatchOutcome& outcome) {
   if (outcome.motion_gradient.isZero(0.0)) return Eigen::Matrix3d::Zero();
   const Eigen::Matrix3d merged = (predicted.covariance.inverse() + outcome.information).inverse();
@@ -133,7 +133,7 @@ void DeadReckoner::correctSweep(const scan::Scan& scan, const Pose2& T_base_sens
   const Eigen::Vector3d found =
       geometry::between(T_odom_base_, match.outcome.T_odom_base).log() / elapsed;
   const Eigen::Vector3d acceleration = accelerationTo(found, elapsed);
-  // From the middle of the step to that of the sweep.
+  // Velocity in the middle of the sweep; the one found holds in the middle of the step.
   const Eigen::Vector3d during = found + 0.5 * (elapsed + duration) * acceleration;
   if (isLonger(duration * (during - match.prediction.step.log() / elapsed))) {
     match.surfaces = readSurfaces(scan, T_base_sensor, during);
@@ -202,7 +202,7 @@ void DeadReckoner::learn(const Match& match) {
   if (match.begins_anew) matcher_->clear();
   const bool had_reference = matcher_->hasReference();
   const double share_new = matcher_->learn(match.surfaces, T_odom_base_, match.outcome);
-  // Against a reference that begins with it the pose is certain, however long the gap was.
+  // The pose is certain against a reference that begins with it, however long the gap was.
   const bool begins = !had_reference && matcher_->hasReference();
   if (begins) bridged_ = 0.0;
   if (match.outcome.state == MatchState::kFailed) errors_.displace(match.motion_covariance);

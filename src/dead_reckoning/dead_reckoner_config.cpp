@@ -32,7 +32,7 @@ void SubmapConfig::visit(config::FieldVisitor& visitor) {
                   {"scans",
                    {1, 1000},
                    "most scans that make up the reference; the newest 50 tell what is free space"});
-  visitor.number("spacing", spacing, {"m", {0.0, 10.0}, "way between two keyframes"});
+  visitor.number("spacing", spacing, {"m", {0.0, 10.0}, "distance between two keyframes"});
   visitor.number("turn_spacing", turn_spacing, {"rad", kAngle, "turn between two keyframes"});
   visitor.number("surface_sigma", surface_sigma,
                  {"m", {1e-4, 1.0}, "roughness of surfaces and errors of the reference"});

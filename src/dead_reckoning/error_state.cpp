@@ -50,8 +50,9 @@ Eigen::Matrix3d ErrorState::predicted(const Pose2& T_odom_base, const StepPredic
                    next.by_step * step.covariance * next.by_step.transpose());
 }
 
-// What the reference has in common with the scan before moves both ends of a step. The motion
-// within a sweep is not of that kind: its part of the error against the reference stays whole.
+// The part of the error that the reference has in common from scan to scan moves both ends of a
+// step. The motion within a sweep is not of that kind: its part of the error against the reference
+// stays whole.
 ErrorState::Joint ErrorState::apartFrom(double common) const {
   const auto addMotion = [this](double sign, Joint& joint) {
     joint.block<3, 9>(3, 0) += sign * with_motion_.transpose();
@@ -78,7 +79,7 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
   const Eigen::Matrix3d noise =
       rest * next.by_step * prediction.covariance * next.by_step.transpose() * rest.transpose() +
       of_match + measurement.extra_covariance + measurement.motion_covariance;
-  // How the end of the step errs besides the error of its start, from the errors before.
+  // Error of the end of the step besides that of its start, from the errors before.
   Rows moved = Rows::Zero();
   moved.block<3, 3>(0, 3) = -gain * next.by_pose;
   moved.block<3, 3>(0, 6) = rest * next.by_twist;
@@ -105,8 +106,8 @@ void ErrorState::displace(const Eigen::Matrix3d& motion_covariance) {
   with_motion_.setZero();
 }
 
-// What is handed over is taken for independent of what is left: that is 1 - share of the error, and
-// a part drawn anew.
+// Takes the part that is handed over for independent of the part that is left: the latter is 1 -
+// share of the error, and a part drawn anew.
 void ErrorState::handOver(double share) {
   const Eigen::Matrix3d left = (1.0 - share) * againstReference() + share * motion_;
   covariance_.block<3, 9>(3, 0) *= 1.0 - share;

@@ -44,7 +44,7 @@ Eigen::Matrix3d MotionGradient::drift() const {
   return sum * turned(R_odom_base_, surfaces_.motion_noise.drift) * sum.transpose();
 }
 
-// What the walk does in a stretch of time moves all points that are seen later.
+// The walk in a stretch of time moves all points that are seen later.
 Eigen::Matrix3d MotionGradient::walk() const {
   std::vector<Term> latest_first = terms_;
   std::stable_sort(latest_first.begin(), latest_first.end(),

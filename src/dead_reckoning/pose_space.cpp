@@ -44,7 +44,7 @@ struct PoseGrid {
   double threshold;     // [m]
   std::size_t stride;   // only every so many points are counted
 
-  // To either side.
+  // Steps to either side.
   int headings() const { return static_cast<int>(std::ceil(heading / heading_step)); }
   int positions() const { return static_cast<int>(std::ceil(position / step)); }
   double poses() const {

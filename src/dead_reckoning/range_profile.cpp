@@ -9,8 +9,8 @@ namespace sightline::dead_reckoning {
 namespace {
 
 struct ProfileTuning {
-  // What pose and surface may be off: a part that does not depend on the range [m], and one that
-  // grows with it as an error of the heading does [m/m].
+  // Errors of pose and surface that are allowed for: a part that does not depend on the range [m],
+  // and one that grows with it as an error of the heading does [m/m].
   double margin = 0.12;
   double margin_per_metre = 0.03;
 };

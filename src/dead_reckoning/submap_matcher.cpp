@@ -21,7 +21,7 @@ struct MatchTuning {
   // A local match that speaks as clearly as this is taken without looking further.
   double clear_cost = 0.2;
   double clear_contradictions = 0.1;
-  // Where the prediction leads, this much is enough. Twice the inliers turn the Intel log by 28°
+  // Least inliers of a match that the prediction leads to. Twice as many turn the Intel log by 28°
   // more in all and add .8 points of bad steps.
   double least_inliers = 0.25;
   double few_contradictions = 0.1;
@@ -46,7 +46,7 @@ struct MatchTuning {
   double neighbour_position = 0.25;
   double neighbour_heading = 0.1;
   double cost_gap = 0.05;
-  // So many scans that fit a fresh reference alone make it the one.
+  // Scans in a row, fitting a fresh reference alone, after which it becomes the reference.
   int trusted_after = 3;
 };
 constexpr MatchTuning kMatch{};
@@ -220,8 +220,8 @@ SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Task
   return hypothesis;
 }
 
-// Where the prediction leads is a place to believe in, as long as next to nothing speaks against
-// it: beyond a door most of a scan is new.
+// A match that the prediction leads to is believed as long as next to nothing speaks against it:
+// beyond a door most of a scan is new.
 bool SubmapMatcher::isClear(const Hypothesis& hypothesis, bool predicted) const {
   const Evidence& evidence = hypothesis.evidence;
   if (predicted && evidence.inliers > kMatch.least_inliers &&

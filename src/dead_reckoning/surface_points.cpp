@@ -20,8 +20,8 @@ struct SurfaceTuning {
   // step is what they may be apart besides [m].
   double grazing = 0.087;
   double step = 0.05;
-  // What a surface may leave of its points and still be straight; where it leaves more than
-  // `smooth`, there may be a corner [m]. Half of `straight` costs 4 points on aces.
+  // Distance of points from a surface that is still straight; where they are farther than `smooth`,
+  // there may be a corner [m]. Half of `straight` costs 4 points on aces.
   double straight = 0.02;
   double smooth = 0.01;
   // Points of a line, and its least extent [m²]. One or six points make no surface finder.
@@ -134,7 +134,7 @@ class SurfaceFinder {
     point.smoothed = point.position + best.normal.dot(best.centre - point.position) * best.normal;
   }
 
-  // With so many neighbours on either side, or twice as many on the better one.
+  // Fits `half` neighbours on either side, or twice as many on the better one.
   void fitAbout(std::size_t i, std::size_t first, std::size_t end, std::size_t half,
                 Line& best) const {
     takeBetter(std::max(first, i - std::min(i, half)), std::min(end, i + half + 1), best);

@@ -17,7 +17,7 @@ bool isAbove(const Point& a, const Point& b, const Point& c) {
   return (b.ahead - a.ahead) * (c.device - a.device) >= (c.ahead - a.ahead) * (b.device - a.device);
 }
 
-// Of points in the order of their device times.
+// Lower hull of points that come in the order of their device times.
 template <class Points, class Point = typename Points::value_type>
 std::vector<Point> lowerHull(const Points& points) {
   std::vector<Point> hull;
@@ -28,8 +28,8 @@ std::vector<Point> lowerHull(const Points& points) {
   return hull;
 }
 
-// Of the edge of a hull that is below or above `device`: of all lines below the points the one that
-// is closest in the sum, if that is their mean.
+// Slope of the edge of a lower hull that lies at `device`. At the mean of the points, this edge is
+// on the line below all points that is closest to them in the sum.
 template <class Point>
 double slopeAt(const std::vector<Point>& hull, double device) {
   for (std::size_t i = 1; i < hull.size(); ++i) {
@@ -53,7 +53,7 @@ void ClockConfig::visit(config::FieldVisitor& visitor) {
                   "constant part of a message's delay; negative: measured, as half of a ping's"});
 }
 
-// Against the last arrival: 32 bits are more than an hour.
+// Counts from the last arrival: 32 bits are more than an hour.
 double ClockEstimator::deviceSeconds(std::uint32_t device) const {
   return last_seconds_ + 1e-6 * static_cast<std::int32_t>(device - last_device_);
 }
@@ -61,7 +61,7 @@ double ClockEstimator::deviceSeconds(std::uint32_t device) const {
 void ClockEstimator::observeArrival(std::uint32_t device, std::int64_t host) {
   if (!arrivals_.empty()) {
     const double since = 1e-9 * static_cast<double>(host - origin_);
-    // What the bits do not say after a long silence the host's clock does.
+    // The host's clock tells the revolutions that the bits do not, after a long silence.
     const double wraps = std::round((since - deviceSeconds(device)) / (1e-6 * 4294967296.0));
     const double seconds = deviceSeconds(device) + wraps * (1e-6 * 4294967296.0);
     const double ahead = since - seconds;
@@ -84,7 +84,8 @@ void ClockEstimator::observeArrival(std::uint32_t device, std::int64_t host) {
   arrivals_.push_back({0.0, 0.0});
 }
 
-// Nothing arrives before it left. What is late has waited somewhere, unless all is late for long.
+// Nothing arrives before it left. A late arrival has waited somewhere, unless all are late for
+// long.
 bool ClockEstimator::isOtherClock(double late, std::int64_t host) {
   if (late <= kOtherClock) late_since_.reset();
   if (std::abs(late) <= kOtherClock) return false;

@@ -15,8 +15,9 @@ constexpr std::int64_t kMillisecond = 1'000'000;         // [ns]
 constexpr std::int64_t kSilence = 250 * kMillisecond;    // two scans have not come
 constexpr std::int64_t kPatience = 1000 * kMillisecond;  // before silence is a fault
 constexpr std::int64_t kAskingPeriod = 40 * kMillisecond;
-constexpr std::int64_t kStrangerPeriod = 250 * kMillisecond;  // of asking who is not the right one
-constexpr std::int64_t kFramePatience = 50 * kMillisecond;    // beyond what its bytes take
+constexpr std::int64_t kUnknownDevicePeriod =
+    250 * kMillisecond;  // of asking a device that is not the right one
+constexpr std::int64_t kFramePatience = 50 * kMillisecond;  // beyond what its bytes take
 constexpr std::int64_t kPingPeriod = 250 * kMillisecond;
 constexpr std::int64_t kCommandPeriod = 100 * kMillisecond;
 constexpr std::int64_t kCommandPatience = 1000 * kMillisecond;
@@ -115,7 +116,7 @@ void Conversation::refuseVersion(int version, const Moment& now) {
 }
 
 // A device that was known before the line was opened goes on by itself. A scan from after a reboot
-// that went unnoticed makes it a stranger, who is asked at once.
+// that went unnoticed makes it an unknown device, which is asked at once.
 bool Conversation::isOfDevice(const Frame& scan) {
   if (!decode(scan, report_)) return false;
   const bool is_known = known_ && report_.boot == known_->boot;
@@ -158,7 +159,7 @@ void Conversation::takeIdentity(const Identity& identity) {
   }
   known_ = device_ = identity;
   trouble_ = {};
-  greet_ = true;
+  just_identified_ = true;
 }
 
 void Conversation::takeAcknowledgement(const Acknowledgement& answer) {
@@ -234,10 +235,10 @@ void Conversation::judgeSilence(const Moment& now) {
 }
 
 std::int64_t Conversation::askingPeriod() const {
-  const bool is_stranger = trouble_.fault != Fault::kNone &&
-                           trouble_.fault != Fault::kSilentDevice &&
-                           trouble_.fault != Fault::kNoScans;
-  return is_stranger ? kStrangerPeriod : kAskingPeriod;
+  const bool is_unknown = trouble_.fault != Fault::kNone &&
+                          trouble_.fault != Fault::kSilentDevice &&
+                          trouble_.fault != Fault::kNoScans;
+  return is_unknown ? kUnknownDevicePeriod : kAskingPeriod;
 }
 
 template <class Message>
@@ -254,7 +255,7 @@ const std::vector<std::uint8_t>& Conversation::send(const Moment& now) {
   giveUpOldFrame(now);
   judgeSilence(now);
   const bool is_quiet = !device_ || now.steady - last_scan_ >= kSilence;
-  if (std::exchange(greet_, false)) {
+  if (std::exchange(just_identified_, false)) {
     put(Start{}, now);
   } else if (is_quiet && now.steady - last_asked_ >= askingPeriod()) {
     last_asked_ = now.steady;

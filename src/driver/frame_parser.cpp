@@ -8,7 +8,7 @@ namespace sightline::driver {
 namespace {
 
 constexpr std::size_t kBufferSize = 4 * kMaxFrame;
-// Between the synchronisation and the header's checksum.
+// Bytes between the synchronisation and the header's checksum.
 constexpr std::size_t kCheckedHeader = kHeaderSize - 4;
 
 std::uint16_t u16At(const std::uint8_t* bytes) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kExact = 1e-6;  // [1], of directions
 
-// What the parser has to say, which it would print.
+// Collects the messages of the parser, which would print them.
 class ParserMessages : public console_bridge::OutputHandler {
  public:
   ParserMessages() { console_bridge::useOutputHandler(this); }

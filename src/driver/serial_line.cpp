@@ -64,7 +64,7 @@ SerialLine::~SerialLine() {
   close();
 }
 
-// Nothing is changed on a port before it is ours: TIOCEXCL keeps out everybody but root, the lock
+// Changes nothing on a port before it is ours: TIOCEXCL keeps out everybody but root, the lock
 // those who ask for it.
 Trouble SerialLine::open(const std::string& path, int baud_rate) {
   close();

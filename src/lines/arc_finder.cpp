@@ -31,7 +31,7 @@ bool overlaps(const Piece& piece, const Run& run, std::size_t revolution) {
   return false;
 }
 
-// Of the straight line through the returns that minimises their squared distances, each return
+// Cost of the straight line through the returns that minimises their squared distances, each return
 // weighted alike: good enough to be compared with.
 double costOfLine(const std::vector<fitting::ArcReturn>& returns, double gate_squared) {
   Eigen::Vector2d middle(0, 0);
@@ -70,8 +70,8 @@ Eigen::Vector2d meanPoint(const BeamArray& beams, std::size_t first, std::size_t
 }
 
 // Whether the middle third of a run is off the line through the other two by more than the standard
-// deviation of that. What is not gains nothing by being round, and most of what is left over in a
-// room is of that kind.
+// deviation of that. Other runs gain nothing by being round, and most that are left over in a room
+// are of that kind.
 bool bends(const BeamArray& beams, const Run& run) {
   const std::size_t third = run.size() / 3;
   const Eigen::Vector2d first = meanPoint(beams, run.first, run.first + third);
@@ -181,7 +181,7 @@ void ArcFinder::observeTangent(const scan::Scan& scan, std::size_t beam, Side si
       scan.sensorMotion().empty() ? Eigen::Vector2d(0, 0) : scan.sensorMotion()[beam].translation();
   const double range = scan.ranges()[beam];
   const double step = range * (past - on).norm();
-  // Between two beams, each turned by the jitter.
+  // The tangent lies between two beams, each turned by the jitter.
   tangent.variance = step * step / 12.0 + 0.5 * scan.motion_noise.jitter * range * range;
   observations_.tangents.push_back(tangent);
   tangent_beams_.push_back(beam);
@@ -236,7 +236,7 @@ bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run&
   // A line does not say where it ends, a circle does.
   const double parameters = kArcs.line_parameters + static_cast<double>(fit.tangents);
   lines = costOfLine(observations_.returns, gate_squared_) + parameters * price;
-  // What is not seen to end on both sides may go on straight behind what hides it.
+  // An arc whose ends are not both seen may go on straight behind what hides it.
   return arc + (fit.tangents < 2 ? gate_squared_ : 0.0) < lines;
 }
 

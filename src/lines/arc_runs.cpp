@@ -139,8 +139,8 @@ std::size_t ArcRuns::skipWalls(std::size_t first, std::size_t end) const {
   return i;
 }
 
-// From one beam to the next, s apart across the beams, the surface of a circle recedes by no more
-// than √(2 R s).
+// The surface of a circle recedes by no more than √(2 R s) from one beam to the next, s apart
+// across the beams.
 bool ArcRuns::isJump(std::size_t from, std::size_t to) const {
   if (!gap_.isSmall(*beams_, from, to)) return true;
   const auto value = [](const std::vector<float>& array, std::size_t i) {

@@ -25,7 +25,7 @@ struct CornerConstants {
 };
 constexpr CornerConstants kCorner{};
 
-// Of the distance of the line from a point at a position on it.
+// Variance of the distance of the line from a point at a position on it.
 double varianceAt(const LineEstimate& line, double position) {
   const Information& info = line.information;
   return (info.phi_phi + position * (2.0 * info.rho_phi + position * info.rho_rho)) /
@@ -86,7 +86,7 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
          std::abs(on_b - next_on_b) < slack + reach_b + spacingAt(neighbour, next);
 }
 
-// On a full circle the numbers may be a revolution off.
+// Numbers of beams may be a revolution off on a full circle.
 bool EndPoints::areNeighbours(std::size_t i, std::size_t k) const {
   const std::size_t count = scan_.beams();
   const std::size_t ahead = (beams_.beam[k] + 2 * count - beams_.beam[i]) % count;

@@ -55,7 +55,7 @@ const std::vector<geometry::LineSegment>& LineExtractor::extract(const scan::Sca
   return segments_;
 }
 
-// As much as there can be, so that no later scan of the size needs more.
+// Reserves as much as there can be, so that no later scan of the size needs more.
 void LineExtractor::reserve(std::size_t beams) {
   pieces_.clear();
   segments_.clear();
@@ -161,7 +161,8 @@ std::size_t LineExtractor::mergeWithOneFrom(std::size_t first, const Merging& me
   return pieces_.size();
 }
 
-// Too few of a wall's returns may be left there for a piece of their own.
+// Extends walls behind small things, where too few of their returns may be left for a piece of
+// their own.
 void LineExtractor::extendBehindSmallThings() {
   const BreakPoints breaks(beams_, config_);
   const std::size_t count = pieces_.size();
@@ -187,7 +188,7 @@ bool LineExtractor::isSmall(const Piece& piece) const {
   return piece.beams < config_.min_beams || extent(beams_, piece) < config_.min_length;
 }
 
-// What stands in front of a wall that goes on behind it is no neighbour of it.
+// A thing in front of a wall that goes on behind it is no neighbour of the wall.
 void LineExtractor::dropHidden() {
   const auto isHidden = [&](const Piece& piece) {
     return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& other) {

@@ -31,7 +31,7 @@ class Gate {
  public:
   Gate(const LineEstimate& line, double gate_squared, double motion_noise)
       : gate_squared_(static_cast<float>(gate_squared)) {
-    // About the middle of the line, where rounding does least harm.
+    // Shifted to the middle of the line, where rounding does least harm.
     const Information& info = line.information;
     const double middle = -info.rho_phi / info.rho_rho;
     const double scale = gate_squared / info.determinant();
@@ -41,8 +41,8 @@ class Gate {
     phi_phi_ = static_cast<float>(scale * info.rho_rho);
   }
 
-  // How far the squared innovation is beyond the gate (eq. 33), with the innovation covariance of
-  // eq. 29.
+  // Excess of the squared innovation over the gate (eq. 33), with the innovation covariance of eq.
+  // 29.
   Packet excess(const BeamResiduals& residuals) const {
     const Packet a = residuals.position - middle_;
     const Packet predicted = rho_rho_ + a * a * phi_phi_;
@@ -72,13 +72,13 @@ struct LineFilter::Moments {
     yy += weight * py * py;
   }
 
-  // About the centroid, along and across an axis.
+  // Moments about the centroid, along and across an axis.
   struct Turned {
     double across_across;
     double along_across;
 
-    // Of the line `along = a across + b` by weighted least squares: variance of its direction over
-    // the squared cosine of its incidence. That is the relative error of the predicted noise.
+    // Variance of the direction of the line `along = a across + b` by weighted least squares, over
+    // the squared cosine of its incidence: the relative error of the predicted noise.
     double relativeVariance() const {
       return across_across / (across_across * across_across + along_across * along_across);
     }
@@ -246,7 +246,7 @@ std::size_t LineFilter::countBridged(const Validation& validation, std::size_t n
   return count;
 }
 
-// Of the way from the middle of what the line is known from.
+// Noise of the motion from the middle of the returns that the line is known from.
 double LineFilter::motionNoise(std::size_t next) const {
   if (sweep_noise_.isZero()) return 0.0;
   return sweep_noise_.ofPrediction(piece_.line, piece_.first + piece_.size() / 2,

@@ -10,7 +10,8 @@ namespace sightline::lines {
 
 namespace {
 
-// Of two lines in (ρ, φ), and the information about either, seen from a place on the first.
+// Difference of two lines in (ρ, φ), and the information about either, seen from a place on the
+// first.
 struct Difference {
   Difference(const LineEstimate& before, const LineEstimate& after, double position) {
     const double x = before.rho * before.normal_x + position * before.alongX();
@@ -27,7 +28,7 @@ struct Difference {
   Information of_after;
 };
 
-// What the second line says of the first: a Kalman update with a line for the observation.
+// Kalman update of the first line with the second line for the observation.
 NormalEquations fusion(const LineEstimate& before, const LineEstimate& after, double position) {
   const Difference d(before, after, position);
   NormalEquations both;

@@ -41,8 +41,8 @@ bool hasChangedLittle(const Piece& piece) {
   return static_cast<double>(changed) <= kRefine.few_returns * piece.beams;
 }
 
-// At the maximum of likelihood the gradient is zero: what is left is that of the returns that came
-// or went.
+// The gradient is zero at the maximum of likelihood: the part that is left is that of the returns
+// that came or went.
 NormalEquations changed(const BeamArray& beams, double gate_squared, const Piece& piece) {
   const auto between = [&](std::size_t first, std::size_t end) {
     return linearise(beams, first, end, piece.line, gate_squared);

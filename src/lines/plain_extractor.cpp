@@ -14,7 +14,7 @@ namespace {
 using geometry::PolarLine;
 using geometry::Pose2;
 
-// Of the sensor at a beam, in its frame at the stamp.
+// Pose of the sensor at a beam, in its frame at the stamp.
 Pose2 poseAt(const scan::Scan& scan, std::size_t beam) {
   return scan.sensorMotion().empty() ? Pose2() : scan.sensorMotion()[beam];
 }
@@ -32,7 +32,7 @@ Eigen::Matrix3d motionTo(const scan::Scan& scan, std::size_t beam) {
   return motionCovariance(scan, beam) + ofJitter(scan, beam, 1.0);
 }
 
-// What comes on top between two beams (eq. 23 for any planar motion).
+// Covariance that comes on top between two beams (eq. 23 for any planar motion).
 Eigen::Matrix3d motionBetween(const scan::Scan& scan, std::size_t from, std::size_t to) {
   return motionCovariance(scan, to) - motionCovariance(scan, from) + ofJitter(scan, to, 2.0);
 }

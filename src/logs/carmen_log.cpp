@@ -15,7 +15,7 @@ namespace {
 using geometry::Pose2;
 using geometry::radians;
 
-// More than any scanner has, so that a damaged number does not become an allocation.
+// More beams than any scanner has, so that a damaged number does not become an allocation.
 constexpr std::size_t kMostBeams = 100'000;
 
 constexpr std::size_t kLongestKind = 32;

@@ -21,7 +21,7 @@ std::vector<CarmenOdometry> columnsOf(const CarmenLog& log) {
   return odometry;
 }
 
-// Of two poses with one stamp, the later line knows more.
+// Keeps the later line of two poses with one stamp, which knows more.
 void dropRepeated(std::vector<CarmenOdometry>& odometry) {
   const auto same = [](const CarmenOdometry& a, const CarmenOdometry& b) {
     return a.stamp == b.stamp;

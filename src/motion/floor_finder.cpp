@@ -23,8 +23,8 @@ struct FloorTuning {
   // Share of the least distance of level ground from which on a beam counts as far: the scanner
   // bobs.
   double bob = 0.9;
-  // How far a return may be from where a wall was seen, and how far behind that it is seen through:
-  // a length [m] and a share of the range.
+  // Largest distance of a return from where a wall was seen, and the distance behind it from which
+  // on the wall is seen through: a length [m] and a ratio of the range.
   double same_at = 0.05;
   double same_share = 0.005;
   double behind_at = 0.1;
@@ -58,7 +58,7 @@ std::optional<Slope> slopeThrough(const scan::Scan& scan, std::size_t a, std::si
   return Slope((p * v.y() - q * u.y()) / determinant, (q * u.x() - p * v.x()) / determinant);
 }
 
-// How far a scan saw along a beam; nothing where the beam says nothing.
+// Range that a scan saw along a beam; nothing where the beam says nothing.
 double sightOf(const scan::Scan& scan, std::size_t beam) {
   if (scan.isValid(beam)) return scan.ranges()[beam];
   const bool is_open = scan.kinds()[beam] == scan::ReturnKind::kNothing;
@@ -90,8 +90,8 @@ struct Sightings {
   }
 };
 
-// What an earlier scan says of a point, given in its sensor's frame: that it saw it, or that it
-// saw what lies behind.
+// Asks an earlier scan about a point, given in its sensor's frame: it may have seen the point, or
+// what lies behind.
 void consult(const scan::Scan& earlier, const Eigen::Vector2d& point, Sightings& sightings) {
   const auto first = firstOfFour(*earlier.geometry(), std::atan2(point.y(), point.x()));
   if (!first) return;
@@ -139,7 +139,7 @@ std::optional<Eigen::Vector2d> FloorFinder::bestSlope(const scan::Scan& scan,
     for (std::size_t i = 0; i + apart < beams.size(); ++i) {
       const auto slope = slopeThrough(scan, beams[i], beams[i + apart]);
       if (!slope || slope->norm() > steepest) continue;
-      // Behind the scanner it falls where before it rises.
+      // A level line falls behind the scanner where it rises before it.
       if (std::abs(std::atan2(slope->y(), std::abs(slope->x()))) > kFloor.max_skew) continue;
       const long count = std::count_if(beams.begin(), beams.end(),
                                        [&](std::size_t beam) { return isOn(*slope, scan, beam); });
@@ -163,7 +163,7 @@ FloorFinder::Beams FloorFinder::floorOf(const scan::Scan& scan, const Pose2& T_o
   }
   Sightings sightings;
   for (const Sightings& of_beam : of_beams) sightings += of_beam;
-  // Where hardly anything is known, it is a wall that has just come into view.
+  // A line of which hardly anything is known is a wall that has just come into view.
   if (2 * sightings.count() <= static_cast<int>(line.size())) return {};
   if (sightings.contradiction > kFloor.support_per_contradiction * sightings.support) return line;
   Beams open;

@@ -52,7 +52,8 @@ geometry::Pose2 expectedStep(const OdometryNoise& noise, const geometry::Pose2& 
 
 namespace {
 
-// How slips along and across the way and a turn, all at one place of the path, move its end.
+// Effect on the end of a path of slips along and across it and of a turn, all at one place of the
+// path.
 Eigen::Matrix3d effectAt(const geometry::Pose2& place, const geometry::Pose2& end,
                          const Eigen::Vector2d& direction) {
   const Eigen::Vector2d along = place.rotation() * direction;

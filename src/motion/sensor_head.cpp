@@ -30,11 +30,11 @@ void SensorHead::command(const HeadCommand& command) {
 
 // The step at which it can come to rest the soonest.
 double SensorHead::restingPlace() const {
-  const double way = 0.5 * rate_ * std::abs(rate_) / limits_.acceleration;
-  return limits_.rounded(angle_ + way);
+  const double braking_distance = 0.5 * rate_ * std::abs(rate_) / limits_.acceleration;
+  return limits_.rounded(angle_ + braking_distance);
 }
 
-// Where it is going to: a head that turns at a rate goes on until it meets a limit.
+// Position that the head is going to: at a commanded rate it goes on until it meets a limit.
 double SensorHead::target() const {
   double target = command_.position;
   if (command_.mode == Mode::kRate) target = command_.rate < 0.0 ? limits_.lower : limits_.upper;
@@ -43,7 +43,7 @@ double SensorHead::target() const {
 
 double SensorHead::wantedRate(double duration) const {
   const double left = target() - angle_;
-  // What can still be braked from in the steps that are left, the last one included.
+  // Rate that can still be braked from in the steps that are left, the last one included.
   const double lag = 0.5 * limits_.acceleration * duration;
   const double braking = std::sqrt(2.0 * limits_.acceleration * std::abs(left) + lag * lag) - lag;
   double most = limits_.max_rate;

@@ -7,7 +7,7 @@ std::vector<geometry::Pose2> sweepMotion(const scan::ScanGeometry& geometry,
                                          const geometry::Pose2& T_carrier_sensor) {
   const double duration = geometry.timeOffsets().back();
   if (duration == 0.0) return {};
-  // Of the sensor itself: conjugating the carrier's motion keeps the velocity constant.
+  // Motion of the sensor itself: conjugating the carrier's motion keeps the velocity constant.
   const geometry::Pose2 motion = T_carrier_sensor.inverse() * T_start_end * T_carrier_sensor;
   const Eigen::Vector3d velocity = motion.log() / duration;
   if (velocity.isZero(1e-9)) return {};

@@ -5,8 +5,8 @@
 
 namespace sightline::nodes {
 
-/// What every node that estimates takes as parameters: topics of its scans, frames, and how scans
-/// are completed.
+/// Parameters of every node that estimates: topics of its scans, frames, and how scans are
+/// completed.
 struct EstimatorTopics {
   pipeline::InputConfig input;
   pipeline::Frames frames;

@@ -22,7 +22,7 @@ pipeline::EstimatorsConfig estimatorsOf(const LaserOdometryNodeConfig& config) {
   return result;
 }
 
-// What this node says itself is no prior of its own.
+// Keeps the node from taking its own output for a prior.
 OdometrySource sourceOf(const LaserOdometryNodeConfig& config, const ros::NodeHandle& node) {
   const auto& input = config.topics.input;
   const OdometrySource asked = input.feed.odometry_source;

@@ -23,10 +23,10 @@ class LineControls {
   dynamic_reconfigure::Server<LineExtractorConfig> reconfigure_;
 };
 
-/// In diagnostics, of how many scans the motion within the sweep is known.
+/// Shows in diagnostics for how many scans the motion within the sweep is known.
 class MotionDiagnostics {
  public:
-  /// Both have to live as long.
+  /// Keeps references to both.
   MotionDiagnostics(const bridge::LiveFeed& feed, diagnostic_updater::Updater& updater);
 
  private:

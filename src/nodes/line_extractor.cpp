@@ -28,7 +28,7 @@ LineExtractorNodeConfig readLineExtractorConfig(const ros::NodeHandle& private_n
   return config;
 }
 
-// Without a fixed frame nothing is asked of anybody, and no scan waits.
+// Needs nothing without a fixed frame, so that no scan waits.
 pipeline::FeedNeeds needsOf(const LineExtractorNodeConfig& config) {
   const bool moves = !config.fixed_frame.empty();
   return {moves || config.topics.input.leans, moves};

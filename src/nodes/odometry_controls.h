@@ -17,7 +17,7 @@ class OdometryControls {
   OdometryControls(ros::NodeHandle private_node, pipeline::ScanOdometry& odometry,
                    const bridge::OdometryOutput& output, diagnostic_updater::Updater& updater);
 
-  /// To be called with what has been found of each scan.
+  /// Notes the results for one scan; call it for each.
   void note(const pipeline::Estimates& estimates);
 
  private:

@@ -15,8 +15,8 @@
 
 namespace sightline::nodes {
 
-/// What people and programs may ask of a running room tracker: initialpose, services, settings; and
-/// how it does, in diagnostics.
+/// Ways for people and programs to talk to a running room tracker: initialpose, services, settings,
+/// diagnostics.
 class RoomControls {
  public:
   /// All of them have to live as long.

@@ -73,7 +73,7 @@ void SimRobotTopics::addActiveSensor(const SimActiveSensorConfig& config) {
   if (!config.publish_tf) return;
   active_sensors_.back()->broadcastHead();
   broadcastStatic(config_.base_frame, frames.mount, config.mounting.T_base_sensor());
-  // Where it is believed to be, which need not be where it is.
+  // Place where the scan's origin is believed to be, which need not be where it is.
   const Eigen::Vector2d origin = carrier_.calibration(index).parameters.origin.position();
   broadcastStatic(frames.head, frames.projection,
                   Eigen::Isometry3d(Eigen::Translation3d(origin.x(), origin.y(), 0.0)));

@@ -84,7 +84,7 @@ void SimSensorNode::onTimer() {
   }
 }
 
-// Whatever tells where things were goes ahead of the scans.
+// Outputs that tell where things were go ahead of the scans.
 void SimSensorNode::step() {
   simulation::Outputs outputs = simulation_.step();
   clock_.publish(simulation_.time());
@@ -101,7 +101,7 @@ void SimSensorNode::publishEach(Values& values) {
 }
 
 void SimSensorNode::end() {
-  // So that the last sweep is covered.
+  // Publishes once more, so that the last sweep is covered.
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     robots_[i]->publish(simulation_.carrier(i).report(i));
   }

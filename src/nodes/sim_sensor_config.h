@@ -65,7 +65,7 @@ struct SimRobotConfig {
   simulation::GaitConfig gait;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.path("path", path, "path of a file with a way to drive; without it cmd_vel drives");
+    visitor.path("path", path, "path of a file with the robot's path; without it cmd_vel drives");
     visitor.pose("start_pose", start_pose, "of the robot in the map at the start");
     visitor.number("odometry_rate", odometry_rate,
                    {"Hz", {1.0, 200.0}, "of odom, ground_truth and the transform of the odometry"});
@@ -74,8 +74,8 @@ struct SimRobotConfig {
     visitor.text("base_frame", base_frame, "frame of the robot");
     visitor.group("robot", robot);
     visitor.flag("walks", walks,
-                 "a person carries the scanners where the robot would go, nodding and swaying; imu "
-                 "tells how");
+                 "a person carries the scanners where the robot would go, nodding and swaying; the "
+                 "motion is on imu");
     visitor.group("gait", gait);
   }
 };
@@ -108,7 +108,7 @@ struct SimMoverConfig {
   simulation::Body body;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.path("path", path, "path of a file with the way it goes; must be set");
+    visitor.path("path", path, "path of a file with its path through the world; must be set");
     visitor.pose("start_pose", start_pose, "in the map at the start");
     body.visit(visitor);
   }

@@ -19,7 +19,7 @@ class Claims {
   std::set<std::string> claimed_;
 };
 
-// What is below a key, by name; nothing where there is no such key.
+// Nodes below a key, by name; nothing where there is no such key.
 std::vector<std::pair<std::string, config::Node>> namedBelow(const config::Node& parameters,
                                                              const char* key) {
   if (!parameters.has(key)) return {};

@@ -16,11 +16,11 @@ struct SimRobotSetup {
   std::vector<SimActiveSensorConfig> active_sensors;
 };
 
-/// Everything that sim_sensor simulates.
+/// Everything that sim_sensor simulates. Without `robots` there is one, whose parameters stand
+/// beside `world`.
 ///
 /// ```yaml
-/// robots:                              # without it there is one, described at the level of
-/// `world`
+/// robots:
 ///   ann: {start_pose: [0, 0, 0], scanners: {laser: {z: 0.4}}}
 ///   bob: {start_pose: [2, 0, 0], path: FILE, active_sensors: {head: {z: 0.4}}}
 /// movers:                              # what else moves

@@ -58,7 +58,7 @@ void Estimators::restart() {
   }
 }
 
-// By a measured attitude; without one, the odometry looks for it.
+// Removes the floor by a measured attitude; without one, the odometry looks for the floor.
 void Estimators::removeFloor(LocatedScan& located) const {
   if (!config_.input.leans || !located.attitude) return;
   const auto on_floor = motion::beamsOnFloor(config_.input.floor, located.scan, *located.attitude);
@@ -69,7 +69,7 @@ void Estimators::reckon(Estimates& estimates) {
   LocatedScan& located = estimates.located;
   const bool is_known = located.T_base_sensor.has_value();
   if (located.scanner != kOdometryScanner || (is_mounting_known_ && !is_known)) return;
-  // What was found so far was of the scanner, not of the base.
+  // The poses found so far were of the scanner, not of the base.
   if (is_known && !is_mounting_known_) odometry_->reset();
   is_mounting_known_ = is_known;
   estimates.odometry = odometry_->update(located);
@@ -78,7 +78,7 @@ void Estimators::reckon(Estimates& estimates) {
   }
 }
 
-// Where no odometry tells how the sensor moved, the velocity that the dead reckoner found does.
+// Takes the velocity that the dead reckoner found where no odometry tells how the sensor moved.
 void Estimators::addMotion(Estimates& estimates) const {
   const auto& update = estimates.odometry;
   if (!update || update->state == dead_reckoning::MatchState::kInitial) return;

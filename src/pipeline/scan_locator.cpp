@@ -18,7 +18,7 @@ using geometry::Pose2;
 namespace {
 
 struct Constants {
-  // What has been silent for longer is not waited for [ns].
+  // Silence after which a source is not waited for [ns].
   std::int64_t silence = 1'000'000'000;
   // Older than this, the newest motion says nothing about the present one [ns].
   std::int64_t oldest_motion = 500'000'000;
@@ -121,7 +121,7 @@ ScanLocator::Known ScanLocator::remember(const std::string& frame,
   return Known::kYes;
 }
 
-// Whoever has waited in vain once is not waited for again.
+// Waits for a source once: one that was waited for in vain is not waited for again.
 ScanLocator::Known ScanLocator::waitForFirst(const std::string& what, const Patience& patience) {
   if (given_up_.count(what) > 0) return Known::kNot;
   if (patience.start) return Known::kWait;
@@ -129,7 +129,7 @@ ScanLocator::Known ScanLocator::waitForFirst(const std::string& what, const Pati
   return Known::kNot;
 }
 
-// Automatic: transforms go before the topic, and what has been chosen stays, so that no step is
+// Chooses automatically: transforms go before the topic, and the choice stays, so that no step is
 // between poses of two origins.
 void ScanLocator::chooseSource(const std::string& frame) {
   if (source_) return;
@@ -181,7 +181,7 @@ std::optional<Pose2> ScanLocator::T_odom_base(std::int64_t stamp) const {
   return geometry::inPlane(*transform);
 }
 
-// Whatever moves with the sensor's mount: by the topic, the base itself.
+// Pose of what moves with the sensor's mount; by the topic, that is the base itself.
 std::optional<Eigen::Isometry3d> ScanLocator::T_odom_carried(const std::string& frame,
                                                              std::int64_t stamp) const {
   if (source_ == OdometrySource::kTransforms) return transforms_.at(frames_.odom, frame, stamp);
@@ -210,8 +210,8 @@ void ScanLocator::place(const ArrivedScan& arrived,
   located.T_base_sensor = *located.T_base_sensor * head.T_mount_sensor(0);
 }
 
-// How far odometry is behind that does not reach the end of the sweep, and yet tells how the sensor
-// has been moving a moment ago.
+// Lag of odometry that does not reach the end of the sweep, and yet tells how the sensor has been
+// moving a moment ago.
 std::optional<std::int64_t> ScanLocator::lagOf(const ArrivedScan& arrived) const {
   if (!needs_.odometry || !source_ || source_ == OdometrySource::kNone) return std::nullopt;
   const auto newest = newestOdometry(arrived.carriedFrame());
@@ -247,7 +247,7 @@ void ScanLocator::addMotionNoise(const ArrivedScan& arrived, std::int64_t lag,
   if (located.scan.sensorMotion().empty()) return;
   const auto start = T_odom_base(arrived.scan.stamp - lag);
   const auto end = T_odom_base(arrived.scan.end() - lag);
-  // Without a base, what carries the sensor is taken for it.
+  // The carried frame is taken for the base where the base is not known.
   const Pose2 T_start_end =
       start && end ? geometry::between(*start, *end) : located.scan.sensorMotion().back();
   located.scan.motion_noise =

@@ -120,7 +120,7 @@ ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
         wheelPrior(config_.wheels, geometry::between(*before_->T_odom_base, *located.T_odom_base));
   }
   if (!located.turn) return prior;
-  // Of the turn the gyroscope knows better.
+  // The gyroscope knows the turn better.
   if (!prior) prior = asBefore(elapsed, *located.turn);
   prior->T_before_now = {prior->T_before_now.translation(), *located.turn};
   const double sigma = config_.turn_rate_sigma * elapsed;

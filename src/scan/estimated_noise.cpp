@@ -13,7 +13,7 @@ namespace {
 // Returns that are fitted with a line to learn of their noise.
 constexpr std::size_t kRun = 8;
 constexpr auto kReturns = static_cast<double>(kRun);
-// How many runs tell enough, and into how many groups of like range they are sorted at most.
+// Runs that tell enough, and groups of like range into which they are sorted at most.
 constexpr std::size_t kFewestRuns = 3;
 constexpr std::size_t kRunsOfGroup = 8;
 constexpr std::size_t kMostGroups = 8;

@@ -23,7 +23,7 @@ bool Cable::pass(std::vector<std::uint8_t>& bytes) {
   return !burst_hit && !corrupted && !dropped;
 }
 
-// At least the first byte of the burst is another one than before.
+// Changes at least the first byte of the burst.
 bool Cable::burst(std::vector<std::uint8_t>& bytes) {
   if (!happens(faults_.bursts)) return false;
   const std::size_t begin = random_() % bytes.size();

@@ -45,7 +45,7 @@ class Rig {
   Eigen::Isometry3d T_sensor_projection_ = Eigen::Isometry3d::Identity();
 };
 
-// To what y [m] the field of view goes, and a little farther.
+// Largest y [m] of the field of view, and a little farther.
 double Rig::halfWidth(double depth) const {
   const double angle =
       0.5 * sensor_.scan.field_of_view + std::abs(sensor_.origin.projected_vergence);

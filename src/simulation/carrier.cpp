@@ -16,7 +16,7 @@ const RobotConfig& checkedConfig(const RobotConfig& config) {
 
 Carrier::Carrier(const RobotConfig& config, const geometry::Pose2& T_map_base, std::uint64_t seed)
     : config_(checkedConfig(config)), seed_(seed), robot_(config, T_map_base, seed) {
-  way_.add(time_, T_map_base);
+  path_.add(time_, T_map_base);
 }
 
 void Carrier::addScanner(const ScannerProfile& profile, const Mounting& mounting,
@@ -64,7 +64,7 @@ Velocity Carrier::wanted() {
 void Carrier::move() {
   robot_.step(wanted(), 1e-9 * static_cast<double>(kStep));
   time_ += kStep;
-  way_.add(time_, robot_.T_map_base());
+  path_.add(time_, robot_.T_map_base());
   if (gait_) walkOn();
 }
 
@@ -76,7 +76,7 @@ void Carrier::walkOn() {
 }
 
 geometry::Pose2 Carrier::T_map_base(std::int64_t time) const {
-  return *way_.at(time) * bodyMotion(time).inPlane();
+  return *path_.at(time) * bodyMotion(time).inPlane();
 }
 
 BodyMotion Carrier::bodyMotion(std::int64_t time) const {
@@ -84,7 +84,7 @@ BodyMotion Carrier::bodyMotion(std::int64_t time) const {
   const double ago = static_cast<double>(time_ - time) / static_cast<double>(kStep);
   const auto steps = static_cast<std::size_t>(ago);
   const std::size_t last = body_motions_.size() - 1;
-  // Before the person was there, the trunk stood as it did first.
+  // The trunk stood before the person was there as it did first.
   if (steps >= last) return body_motions_.front();
   return interpolate(body_motions_[last - steps], body_motions_[last - steps - 1],
                      ago - static_cast<double>(steps));

@@ -13,7 +13,7 @@ Detector::Detector(double noise_current, double length, double bandwidth, double
       memory_(bandwidth > 0.0 ? std::exp(-2.0 * geometry::kPi * bandwidth / sample_rate) : 0.0),
       random_(randomStream(seed, 2)) {}
 
-// Of unit variance, sharing as much with the one before as the bandwidth lets.
+// Noise of unit variance, sharing as much with the one before as the bandwidth lets.
 double Detector::next(double before) {
   const double fresh = normal_(random_);
   return is_first_ ? fresh : memory_ * before + std::sqrt(1.0 - memory_ * memory_) * fresh;
@@ -29,7 +29,7 @@ triangulation::Photocurrents Detector::measure(const SpotImage& spot) {
   is_first_ = false;
   const double total = light_.total();
   const double place = total > 0.0 ? (light_.first - light_.second) / total : 0.0;
-  // What comes on top of the total falls on the same place.
+  // Noise of the total falls on the same place.
   const double more = noise_current_ * total_noise_;
   const double difference = place * (total + more) + noise_current_ * difference_noise_;
   return {0.5 * (total + more + difference), 0.5 * (total + more - difference)};

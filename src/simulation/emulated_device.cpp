@@ -122,7 +122,7 @@ void EmulatedDevice::runTasks(std::int64_t now) {
   for (const Task& task : tasks) task(now);
 }
 
-// What was on its way waits as long as the device does.
+// Bytes on their way wait as long as the device does.
 void EmulatedDevice::fallSilent(std::int64_t now, std::int64_t until) {
   const std::int64_t from = is_silent_ ? silent_until_ : now;
   is_silent_ = true;
@@ -172,7 +172,7 @@ void EmulatedDevice::work(std::int64_t now) {
   ship();
 }
 
-// While the device is silent, what comes is lost; it would be obeyed late otherwise.
+// Bytes that come while the device is silent are lost; they would be obeyed late otherwise.
 void EmulatedDevice::listen(std::int64_t now) {
   if (!terminal_) return;
   std::array<std::uint8_t, 4096> buffer{};

@@ -47,17 +47,17 @@ Gait::Gait(const GaitConfig& config, std::uint64_t seed)
     : config_(config), random_(randomStream(seed, 3)) {
   // Different people do not start with the same foot.
   phase_ = std::uniform_real_distribution<double>(0.0, 2.0 * geometry::kPi)(random_);
-  vigour_ = drawVigour();
-  next_vigour_ = drawVigour();
+  stride_ = drawStride();
+  next_stride_ = drawStride();
 }
 
-Gait::Vigour Gait::drawVigour() {
-  std::uniform_real_distribution<double> share(1.0 - config_.variation, 1.0);
-  Vigour vigour;
-  vigour.pitch = share(random_);
-  vigour.roll = share(random_);
-  vigour.yaw = share(random_);
-  return vigour;
+Gait::StrideRatios Gait::drawStride() {
+  std::uniform_real_distribution<double> ratio(1.0 - config_.variation, 1.0);
+  StrideRatios stride;
+  stride.pitch = ratio(random_);
+  stride.roll = ratio(random_);
+  stride.yaw = ratio(random_);
+  return stride;
 }
 
 void Gait::step(double speed, double duration) {
@@ -67,8 +67,8 @@ void Gait::step(double speed, double duration) {
   phase_ += geometry::kPi * config_.step_rate * pace_ * duration;
   if (phase_ < 2.0 * geometry::kPi) return;
   phase_ -= 2.0 * geometry::kPi;
-  vigour_ = next_vigour_;
-  next_vigour_ = drawVigour();
+  stride_ = next_stride_;
+  next_stride_ = drawStride();
 }
 
 BodyMotion Gait::motion() const {
@@ -76,9 +76,9 @@ BodyMotion Gait::motion() const {
   const auto swing = [&](double amplitude, double at_start, double at_end) {
     return pace_ * amplitude * blend(at_start, at_end, along);
   };
-  const double roll = swing(config_.roll, vigour_.roll, next_vigour_.roll);
-  const double yaw = swing(config_.yaw, vigour_.yaw, next_vigour_.yaw);
-  const double pitch = swing(config_.pitch, vigour_.pitch, next_vigour_.pitch);
+  const double roll = swing(config_.roll, stride_.roll, next_stride_.roll);
+  const double yaw = swing(config_.yaw, stride_.yaw, next_stride_.yaw);
+  const double pitch = swing(config_.pitch, stride_.pitch, next_stride_.pitch);
   return {pace_ * config_.sway * std::sin(phase_),
           pace_ * config_.bob * std::cos(2.0 * phase_),
           yaw * std::cos(phase_),

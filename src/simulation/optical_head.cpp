@@ -27,11 +27,11 @@ Eigen::Vector3d inPlane(const Eigen::Vector2d& point) {
   return {point.x(), point.y(), 0.0};
 }
 
-// In plan view [m].
+// Offset in plan view [m].
 double offsetFrom(const world::Ray& axis, const Eigen::Vector3d& point) {
   const Eigen::Vector2d along = axis.direction.head<2>().normalized();
-  const Eigen::Vector2d way = (point - axis.origin).head<2>();
-  return std::abs(along.x() * way.y() - along.y() * way.x());
+  const Eigen::Vector2d displacement = (point - axis.origin).head<2>();
+  return std::abs(along.x() * displacement.y() - along.y() * displacement.x());
 }
 
 }  // namespace
@@ -97,9 +97,9 @@ double OpticalHead::gatheredCurrent(const world::World& world, const Spot& spot,
                                       spot.source_map.head<2>(), lens_map.head<2>())) {
     return 0.0;
   }
-  const Eigen::Vector3d way = spot.point_map - lens_map;
-  const double distance = way.norm();
-  const auto seen = world.cast({lens_map, way / distance}, between);
+  const Eigen::Vector3d displacement = spot.point_map - lens_map;
+  const double distance = displacement.norm();
+  const auto seen = world.cast({lens_map, displacement / distance}, between);
   if (!seen || std::abs(seen->range - distance) > kTolerance) return 0.0;
   return spot.full_current * world.materials()[spot.hit.material].reflectivity *
          seen->cos_incidence / (distance * distance);

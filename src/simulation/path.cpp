@@ -16,7 +16,7 @@ Path::Path(const config::Node& document) {
 
 void Path::visit(config::FieldVisitor& visitor) {
   visitor.number("wait", wait, {"s", {0.0, 1e6}, "before the robot sets off"});
-  visitor.number("speed", speed, {"m/s", {1e-3, 50.0}, "of the robot on its way"});
+  visitor.number("speed", speed, {"m/s", {1e-3, 50.0}, "of the robot along the path"});
   visitor.number("turn_rate", turn_rate, {"rad/s", {1e-3, 50.0}, "the robot turns no faster"});
   visitor.number("tolerance", tolerance,
                  {"m", {1e-3, 100.0}, "this near to a waypoint the next one is headed for"});

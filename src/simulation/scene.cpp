@@ -6,7 +6,7 @@ namespace sightline::simulation {
 
 namespace {
 
-// Nothing is seen of what ends where it begins, below the floor.
+// A thing that ends where it begins, below the floor, is not seen.
 constexpr double kNowhere = -1.0;  // [m]
 
 }  // namespace

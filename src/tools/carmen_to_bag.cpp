@@ -8,7 +8,7 @@ namespace {
 
 using namespace sightline;
 
-// Whatever of the log does not get into the bag is said on standard error.
+// Says on standard error what does not get from the log into the bag.
 void printLosses(const logs::CarmenLog& log) {
   if (log.bad_lines > 0) {
     std::fprintf(stderr, "%s\n%zu lines that cannot be understood are left out\n",

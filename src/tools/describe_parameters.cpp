@@ -87,7 +87,7 @@ void printFiles() {
                                     "The files of `config/sensors` for time-of-flight scanners.");
   auto path = sightline::config::describe<simulation::Path>();
   path.push_back({"waypoints", "list of [x, y]", "-", "m", "[-1e6, 1e6]",
-                  "where the way leads, in the map; must be set"});
+                  "points of the path, in the map; must be set"});
   printTable("Paths", "The files of `config/paths`, which say where a simulated robot drives.",
              path);
 }

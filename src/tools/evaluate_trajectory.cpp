@@ -10,7 +10,7 @@ namespace {
 
 using namespace sightline;
 
-// What is printed, and an exit status of 1 where nothing could be compared.
+// Prints figures; exit status 1 where nothing could be compared.
 int print(const std::string& figures, bool any) {
   std::fputs(figures.c_str(), stdout);
   if (!any) std::fputs("no pose of the trajectory is at a time of the truth\n", stderr);

@@ -34,7 +34,7 @@ struct Job {
   std::uint64_t seed = 1;
 };
 
-// What has come on standard input so far, line by line.
+// Standard input so far, line by line.
 class Input {
  public:
   /// False at the end.
@@ -90,7 +90,7 @@ class TroubleReport {
   std::string said_;
 };
 
-// Until a signal comes; standard input may end before.
+// Obeys until a signal comes; standard input may end before.
 void obey(simulation::EmulatedDevice& device, simulation::DeviceFaults& faults, int signals) {
   Input input;
   TroubleReport report;

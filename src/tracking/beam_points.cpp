@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Pose2;
 
-// How far the jitter about an axis may move a point, as a covariance.
+// Covariance that the jitter about an axis gives a point.
 Eigen::Matrix2d jitterAt(const Eigen::Vector2d& point, const scan::MotionNoise& noise) {
   const Eigen::Vector2d arm = point - noise.jitter_axis;
   const Eigen::Vector2d across(-arm.y(), arm.x());

@@ -15,8 +15,9 @@ void PlainFilter::predict(const PlainConfig& config, const Pose2& step) {
   const double along = config.distance_sigma * length;
   const double heading = std::hypot(config.heading_sigma_per_metre * std::sqrt(length),
                                     config.steering_sigma * std::abs(step.theta()));
-  const Eigen::Vector2d way = state_.mean.rotation() * step.translation();
-  const Eigen::Vector2d direction = length > 0.0 ? Eigen::Vector2d(way / length) : way;
+  const Eigen::Vector2d displacement = state_.mean.rotation() * step.translation();
+  const Eigen::Vector2d direction =
+      length > 0.0 ? Eigen::Vector2d(displacement / length) : displacement;
   state_.covariance.topLeftCorner<2, 2>() += along * along * direction * direction.transpose();
   state_.covariance(2, 2) += heading * heading;
   state_.mean = state_.mean * step;

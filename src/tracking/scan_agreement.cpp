@@ -6,7 +6,7 @@ namespace sightline::tracking {
 
 namespace {
 
-// How far behind the wall a beam ended, along the wall's normal [m].
+// Distance behind the wall at which a beam ended, along the wall's normal [m].
 double excessOf(const scan::Scan& scan, std::size_t beam, const world::Sighting& sighting) {
   if (!scan.isValid(beam)) return std::numeric_limits<double>::infinity();
   return (scan.ranges()[beam] - sighting.range) * sighting.cos_incidence;

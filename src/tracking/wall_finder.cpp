@@ -21,7 +21,7 @@ double varianceOf(double sigma) {
   return sigma * sigma;
 }
 
-// How a fit follows the points that the motion of the sensor carries along, each by its share of
+// Response of a fit to the points that the motion of the sensor carries along, each by its share of
 // the sweep: the normal equations of the fit, with the points' displacement along the normal on
 // their right-hand side.
 Eigen::Matrix<double, 2, 3> motionJacobian(const std::vector<const BeamPoint*>& points,

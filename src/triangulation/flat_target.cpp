@@ -7,16 +7,16 @@ namespace sightline::triangulation {
 
 namespace {
 
-// Where the parallel ray that runs `offset` to the left of the axis meets the target.
+// Point where the parallel ray that runs `offset` to the left of the axis meets the target.
 Eigen::Vector2d meet(double depth, double angle, double offset) {
   return {depth, (depth * std::sin(angle) + offset) / std::cos(angle)};
 }
 
 // Light that the lens gathers from there, up to a factor.
 double gathered(const Eigen::Vector2d& spot, const Eigen::Vector2d& lens) {
-  const Eigen::Vector2d way = spot - lens;
-  const double squared = way.squaredNorm();
-  return way.x() / (squared * std::sqrt(squared));
+  const Eigen::Vector2d displacement = spot - lens;
+  const double squared = displacement.squaredNorm();
+  return displacement.x() / (squared * std::sqrt(squared));
 }
 
 }  // namespace

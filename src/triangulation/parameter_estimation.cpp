@@ -18,7 +18,7 @@ namespace {
 
 using Information = Eigen::Matrix<double, kParameterCount, kParameterCount>;
 
-// What the solver asks for.
+// Interface that the solver asks for.
 struct LeastSquaresProblem {
   using Scalar = double;
   using InputType = Eigen::VectorXd;
@@ -161,7 +161,7 @@ void takeOutShift(const ParameterVector& at, double detector_length, double beam
   }
 }
 
-double misfit(const CalibrationResiduals& residuals, const ParameterVector& at) {
+double chiSquareAt(const CalibrationResiduals& residuals, const ParameterVector& at) {
   try {
     return residuals.at(at).squaredNorm();
   } catch (const config::Error&) {
@@ -176,7 +176,7 @@ ParameterVector startFor(const CalibrationResiduals& residuals, const ScanOrigin
   const auto linear = startIntrinsics(residuals.images(), origin, nominal.detector_length);
   if (!linear) return as_built;
   ParameterVector solved = toVector(*linear, origin);
-  return misfit(residuals, solved) < misfit(residuals, as_built) ? solved : as_built;
+  return chiSquareAt(residuals, solved) < chiSquareAt(residuals, as_built) ? solved : as_built;
 }
 
 ParameterVector solve(const CalibrationResiduals& residuals, const ParameterVector& start) {
@@ -189,8 +189,8 @@ ParameterVector solve(const CalibrationResiduals& residuals, const ParameterVect
   return parameters;
 }
 
-// At a minimum the next step of Gauss and Newton is nothing against the standard deviations; at the
-// end of a parameter's range, or where the solver gave up, it is not.
+// Requires that the next Gauss-Newton step is small against the standard deviations, as it is at a
+// minimum; at the end of a parameter's range, or where the solver gave up, it is not.
 void requireMinimum(const CalibrationResiduals& residuals, const ParameterVector& at,
                     const Eigen::VectorXd& values, const Information& covariance,
                     const std::string& source) {

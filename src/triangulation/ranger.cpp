@@ -28,7 +28,7 @@ std::optional<double> neighbouringPosition(const std::vector<double>& positions,
   if (count < kReach) return std::nullopt;
   const auto middle = around.begin() + count / 2;
   std::nth_element(around.begin(), middle, around.begin() + count);
-  // Of an even number the mean of both middle ones, or it would lean to one side.
+  // The mean of both middle ones of an even number; one of them would lean to one side.
   const double below = count % 2 == 1 ? *middle : *std::max_element(around.begin(), middle);
   const double median = 0.5 * (below + *middle);
   if (!(std::abs(median - positions[beam]) <= most)) return std::nullopt;

@@ -41,7 +41,7 @@ class EdgeFit {
 
  private:
   double place(std::size_t i) const { return static_cast<double>(beams_[i].beam); }
-  double misfit(double edge) const;
+  double chiSquare(double edge) const;
   Place averageOver(double begin, double end) const;
 
   static constexpr int kSteps = 60;
@@ -54,7 +54,7 @@ class EdgeFit {
 
 // Chi-square of the window's currents with an edge there; the levels on either side and a common
 // slope (light falls off towards the sides of the field) are what fits best.
-double EdgeFit::misfit(double edge) const {
+double EdgeFit::chiSquare(double edge) const {
   const double left = beams_[window_.first].current;
   const double right = beams_[window_.last - 1].current;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -76,11 +76,12 @@ double EdgeFit::misfit(double edge) const {
 }
 
 EdgeFit::Place EdgeFit::averageOver(double begin, double end) const {
-  Eigen::Array<double, kSteps + 1, 1> misfits;
+  Eigen::Array<double, kSteps + 1, 1> chi_squares;
   const Eigen::Array<double, kSteps + 1, 1> places =
       Eigen::Array<double, kSteps + 1, 1>::LinSpaced(begin, end);
-  for (int i = 0; i <= kSteps; ++i) misfits[i] = misfit(places[i]);
-  Eigen::Array<double, kSteps + 1, 1> weights = (-0.5 * (misfits - misfits.minCoeff())).exp();
+  for (int i = 0; i <= kSteps; ++i) chi_squares[i] = chiSquare(places[i]);
+  Eigen::Array<double, kSteps + 1, 1> weights =
+      (-0.5 * (chi_squares - chi_squares.minCoeff())).exp();
   weights /= weights.sum();
   const double mean = (weights * places).sum();
   return {mean, std::sqrt((weights * (places - mean).square()).sum())};

@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Segment;
 
-// What a drawing may leave open: chosen by what people draw, not measured.
+// Inaccuracy that a drawing may have: chosen by what people draw, not measured.
 constexpr struct {
   // A door may stand this far from the walls it pierces: half the thickest wall between two rooms.
   double max_door_distance = 0.5;

@@ -9,7 +9,7 @@ namespace {
 
 using geometry::Segment;
 
-// Where the opening of a door cuts a wall: its two edges.
+// Edges of the opening that a door cuts into a wall.
 std::pair<Eigen::Vector2d, Eigen::Vector2d> edgesOf(const Door& door, const Wall& wall) {
   const Span opening = openingOf(door, wall);
   const auto at = [&](double along) -> Eigen::Vector2d {

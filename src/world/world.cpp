@@ -30,12 +30,12 @@ struct Interval {
   double to = std::numeric_limits<double>::infinity();
 };
 
-// Where along the ray it is within the (endless) round wall of a disc; empty if from >= to.
+// Stretch of the ray within the (endless) round wall of a disc; empty if from >= to.
 Interval withinRound(const WorldDisc& disc, const Ray& ray) {
-  const Eigen::Vector2d way = ray.direction.head<2>();
+  const Eigen::Vector2d across = ray.direction.head<2>();
   const Eigen::Vector2d offset = ray.origin.head<2>() - disc.centre;
-  const double a = way.squaredNorm();
-  const double b = way.dot(offset);
+  const double a = across.squaredNorm();
+  const double b = across.dot(offset);
   const double c = offset.squaredNorm() - disc.radius * disc.radius;
   if (a == 0.0) return c < 0.0 ? Interval{} : Interval{0.0, 0.0};
   const double discriminant = b * b - a * c;

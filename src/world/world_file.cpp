@@ -22,7 +22,7 @@ Eigen::Vector2d planeSize(const config::Node& node) {
   return {xy[0], xy[1]};
 }
 
-// One file of a world, read into the world that it belongs to, where it stands in it.
+// Reads one file of a world into the world that it belongs to, where its frame stands in it.
 class WorldFile {
  public:
   WorldFile(World& world, const geometry::Pose2& T_map_file, std::vector<std::string> included_from)
@@ -43,7 +43,7 @@ class WorldFile {
   }
 
  private:
-  // What every upright thing has.
+  // Fields of every upright thing.
   struct Upright {
     double bottom;
     double top;

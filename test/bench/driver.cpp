@@ -38,7 +38,7 @@ std::vector<std::uint8_t> recordedStream(std::uint32_t scans) {
   return stream;
 }
 
-// As fast as it goes, scans decoded.
+// Parses as fast as it goes, scans decoded.
 void measureParser() {
   constexpr std::uint32_t kScans = 10000;
   const auto stream = recordedStream(kScans);
@@ -105,7 +105,7 @@ class Disturbances {
   double stall_ = 0.0;
 };
 
-// What a driver's diagnostics last said of its device.
+// Last report of a driver's diagnostics on its device.
 class LastStatus {
  public:
   explicit LastStatus(std::string node) : name_(std::move(node) + ": device") {}
@@ -148,7 +148,7 @@ simulation::CableFaults faults(double corrupted, double bursts, double delay, do
   return result;
 }
 
-// With its delays from the first byte on, as a cable has them.
+// A channel with its delays from the first byte on, as a cable has them.
 std::unique_ptr<Channel> makeLateChannel(const test::TemporaryFolder& folder) {
   auto channel = std::make_unique<Channel>("late", folder.path(""),
                                            std::make_unique<test::RampDevice>(), 100.0);

@@ -93,7 +93,7 @@ class Master {
   Process process_;
 };
 
-/// What a node takes to answer messages.
+/// Load of a node that answers messages.
 struct NodeLoad {
   std::vector<double> latencies_ms;  ///< from publishing a message to having its answer
   double cpu_percent = 0.0;          ///< of a core

@@ -1,5 +1,7 @@
 // The triangulation sensor: its noise against the paper's, its calibration, lines of its scans,
-// speed of its simulation.
+// speed of its simulation. All is simulated. Ranges and lines are those of a sensor whose
+// calibration is exact and whose detector has no limit of bandwidth; the head's angles are exact
+// but for the figures of jitter.
 #include <chrono>
 #include <cmath>
 #include <filesystem>

@@ -14,7 +14,7 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-// What rviz shows after a sequence of arrays: markers by name and id.
+// Display of rviz after a sequence of arrays: markers by name and id.
 class Screen {
  public:
   void show(const MarkerArray& array) {

@@ -13,8 +13,7 @@
 namespace sightline::bridge {
 namespace {
 
-// What a field list says of its numbers, under the names of dynamic_reconfigure: a dot becomes an
-// underscore.
+// Numbers of a field list under the names of dynamic_reconfigure: a dot becomes an underscore.
 class Numbers : public config::FieldObserver {
  public:
   struct Entry {

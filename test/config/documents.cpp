@@ -1,4 +1,4 @@
-// What can be wrong with a document as a whole.
+// Faults of a document as a whole.
 #include <random>
 
 #include <gmock/gmock.h>

@@ -90,7 +90,7 @@ TEST(ErrorState, AMatchBoundsTheErrorAgainstTheReference) {
   EXPECT_NEAR(errors.pose()(0, 0), errors.againstReference()(0, 0), 1e-7);
 }
 
-// What the motion within a sweep made of a pose goes away with the next match.
+// The part of a pose's error that the motion within a sweep made goes away with the next match.
 TEST(ErrorState, TheErrorOfASweepsMotionIsMatchedAwayByTheNext) {
   ErrorState errors;
   PoseMeasurement measurement;

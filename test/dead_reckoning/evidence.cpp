@@ -50,7 +50,7 @@ TEST_F(EvidenceInRoom, AWrongPoseIsContradicted) {
   EXPECT_GT(evidence.cost, at(surfaces, {}).cost + 0.3);
 }
 
-// Where the reference did not see, a point says neither.
+// A point where the reference did not see says neither.
 TEST_F(EvidenceInRoom, WhatIsNewDoesNotContradict) {
   const Pose2 back(0.0, 0.0, geometry::kPi);
   const Evidence evidence = at(look(back), back);

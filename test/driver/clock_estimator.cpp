@@ -58,7 +58,7 @@ class Contact {
   double delay() {
     return device_.constant + std::uniform_real_distribution<>(0.0, device_.jitter)(random_);
   }
-  // Of the time of a scan that began a tenth of a second before it was sent.
+  // Error of the time of a scan that began a tenth of a second before it was sent.
   void error(double time) {
     const auto estimate = estimator_.hostTime(device_.clockAt(time - 0.1));
     ASSERT_TRUE(estimate);

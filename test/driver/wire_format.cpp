@@ -167,7 +167,7 @@ TEST(FrameParser, BrokenFrameTakesNoneOfItsNeighboursWithIt) {
     stream[broken] ^= 0x10;
     append(stream, frameOf(Ping{1}, 2));
     append(stream, frameOf(test::scanReport(2), 3));
-    // What a length that was read wrongly waits for comes in the end.
+    // Bytes that a length which was read wrongly waits for come in the end.
     append(stream, Bytes(kMaxFrame));
     FrameParser parser;
     ASSERT_EQ(sequencesIn(stream, 512, parser), (std::vector<int>{2, 3})) << broken;

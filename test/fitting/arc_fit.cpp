@@ -25,7 +25,7 @@ struct Disc {
     ArcObservations observations;
     const double middle = std::atan2(centre.y(), centre.x());
     const double half = std::asin(radius / centre.norm());
-    // Where the beams fall on the disc is up to chance.
+    // The places where beams fall on the disc are up to chance.
     double angle = middle - half - step * gauss.uniform(0.0, 1.0);
     observations.tangents.push_back(tangentAt(angle + 0.5 * step));
     for (angle += step; angle < middle + half; angle += step) {

@@ -1,4 +1,4 @@
-// Any text, read as a way to drive: one that can be followed, or config::Error.
+// Any text, read as a path to drive: one that can be followed, or config::Error.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

@@ -117,7 +117,7 @@ class Talk {
     answer(conversation_.send(now_));
     conversation_.isScanning(now_);
   }
-  // Whatever the host sends can be read.
+  // All that the host sends can be read.
   void answer(const std::vector<std::uint8_t>& bytes) {
     device_.append({bytes.data(), bytes.size()});
     std::size_t understood = 0;

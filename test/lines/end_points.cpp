@@ -13,7 +13,7 @@ using geometry::EndKind;
 using test::cornerScan;
 using test::SmallScan;
 
-// Where a beam meets y = 2, along the line (x runs against it).
+// Place where a beam meets y = 2, along the line (x runs against it).
 double positionAhead(double beam) {
   return -2.0 / std::tan(geometry::radians(0.25 * beam));
 }

@@ -74,7 +74,7 @@ RC_GTEST_PROP(RigidMotion, TurningTheSensorTurnsTheLines, ()) {
   }
 }
 
-// Where the sensor was at the stamp is what counts, not how it moved from there.
+// The place of the sensor at the stamp is what counts, not how it moved from there.
 RC_GTEST_PROP(RigidMotion, AMovingSensorSeesWhatAStandingOneSees, ()) {
   const double forward = *within(0.1);
   const double aside = *within(0.1);

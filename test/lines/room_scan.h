@@ -44,7 +44,7 @@ struct ScanOf {
     return scan;
   }
 
-  /// What the beam sees; infinite where it meets nothing.
+  /// Range that the beam sees; infinite where it meets nothing.
   double range(const geometry::Pose2& sensor, double angle) const {
     const double heading = sensor.theta() + angle;
     const Eigen::Vector2d direction(std::cos(heading), std::sin(heading));

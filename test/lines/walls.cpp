@@ -6,7 +6,7 @@
 #include "lines/room_scan.h"
 #include "sightline/lines/line_extractor.h"
 
-// What makes a wall one, and where it ends.
+// Conditions for a wall, and its ends.
 namespace sightline::lines {
 namespace {
 
@@ -118,7 +118,7 @@ TEST(Ends, KnowWhyTheWallEnds) {
   for (int i = 0; i < 20; ++i) {
     const auto segments = linesOf(of, of.take(gauss));
     ASSERT_EQ(segments.size(), 4U);
-    // From the right: the far wall, the end of the near one, the box before it, the near wall
+    // Seen from the right: the far wall, the end of the near one, the box before it, the near wall
     // again.
     EXPECT_EQ(segments[0].start_kind, EndKind::kScanLimit);
     EXPECT_EQ(segments[0].end_kind, EndKind::kOccluded);

@@ -36,7 +36,7 @@ const char* const kRelations = R"(10.0 11.001 1.02 0.08 0 0 0 0.19
 13.0 13.001 0 0 0 0 0 0
 )";
 
-// As a script in NumPy printed them, written from the definition of the figures.
+// Figures as a script in NumPy printed them, written from the definition of the figures.
 const char* const kFigures = R"(relations.used 6 of 8
 short.translation.mean 0.0553 m
 short.translation.std 0.0395 m

@@ -149,7 +149,7 @@ TEST(Without, MakesBeamsInvalid) {
   EXPECT_EQ(rest.kinds()[18], scan::ReturnKind::kValid);
 }
 
-// How often beams are called what they are.
+// Numbers of beams that are called what they are, and of the others.
 struct Calls {
   long found = 0;
   long missed = 0;

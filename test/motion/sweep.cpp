@@ -43,7 +43,7 @@ TEST(SweepMotion, EveryBeamOfAMovingSensorSeesAStaticPointInOnePlace) {
   const Vector2d landmark_sensor = T_carrier_sensor.inverse() * landmark_start;
 
   for (std::size_t i = 0; i < geometry->beams(); ++i) {
-    // By brute force: the carrier in steps of a microsecond.
+    // Brute force: the carrier in steps of a microsecond.
     Pose2 T_start_now;
     const int steps = static_cast<int>(std::lround(geometry->timeOffsets()[i] / 1e-6));
     for (int k = 0; k < steps; ++k) T_start_now = T_start_now * Pose2(1e-6 * velocity);

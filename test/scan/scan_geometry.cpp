@@ -130,7 +130,7 @@ TEST(ScanGeometry, KnowsAFullCircle) {
   EXPECT_FALSE(turn(radians(1.0), 358));
   EXPECT_FALSE(turn(radians(0.25), 1081));
   EXPECT_TRUE(ScanGeometry::uniform(kPi, -radians(1.0), 360, 0.0, 0.1, 30.0)->isFullCircle());
-  // As floats of a message give it: 360 increments overshoot the turn by a little.
+  // Floats of a message: 360 increments overshoot the turn by a little.
   EXPECT_TRUE(turn(static_cast<double>(0.0174532942f), 361));
 }
 

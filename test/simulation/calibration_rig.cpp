@@ -1,4 +1,4 @@
-// What a simulated rig records, and what calibration makes of it.
+// Recordings of a simulated rig, and what calibration makes of them.
 #include "sightline/simulation/calibration_rig.h"
 
 #include <cmath>
@@ -123,7 +123,7 @@ TEST(ParameterEstimation, HasTheTruthInItsIntervals) {
   EXPECT_GT(share, 0.85);
 }
 
-// Which parameters the recording of a rig leaves open.
+// Parameters that the recording of a rig leaves open.
 std::string openParameters(const RigConfig& rig, const SensorParameters& sensor = {}) {
   const auto recording = recordCalibration(sensor, Optics(), rig, 5);
   const auto error =

@@ -1,4 +1,4 @@
-// Both ends of the wire format against each other, in a time of their own.
+// The two ends of the wire format against each other, in a time of their own.
 #include <deque>
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ class TwoEnds : public ::testing::Test {
     host_.open(moment());
   }
 
-  // In steps of a millisecond. Frames come when their last byte has gone.
+  // Runs in steps of a millisecond. Frames come when their last byte has gone.
   void run(std::int64_t duration) {
     for (const std::int64_t end = time_ + duration; time_ < end; time_ += kMs) {
       if (awake_) firmware_->advance(time_);
@@ -199,7 +199,7 @@ TEST_F(TwoEnds, WrapOfTheDeviceClockGoesUnnoticed) {
   }
 }
 
-// What a device with this firmware is refused for.
+// Reasons for which a device with this firmware is refused.
 class Strangers : public TwoEnds {
  protected:
   std::string troubleWith(const FirmwareConfig& config) {

@@ -90,7 +90,7 @@ class HostEnd {
     return comesTrue([&] { return receive() && condition(); });
   }
 
-  /// Of a frame whose rest has not come.
+  /// Bytes of a frame whose rest has not come.
   std::size_t pending() const { return came_ - understood_ - parser_.counts().skipped_bytes; }
   std::size_t skipped() const { return parser_.counts().skipped_bytes; }
 
@@ -172,7 +172,7 @@ TEST_F(CutFrames, GoOnAfterAStall) {
 TEST_F(CutFrames, AreLostInAReboot) {
   device_->reboot(0.05);
   EXPECT_TRUE(host_->receivesUntil([this] { return host_->pending() > 0; }));
-  // Whoever reads takes the ruin's size for true, until enough has come to check its sum.
+  // A reader takes the ruin's size for true, until enough has come to check its sum.
   EXPECT_TRUE(comesTrue([&] {
     if (device_->backSince() > 0) host_->send(driver::Identify{});
     return host_->receive() && host_->skipped() > 0;

@@ -101,7 +101,7 @@ TEST_F(PortTest, PermissionIsNeeded) {
             static_cast<int>(driver::Fault::kNoPermission));
 }
 
-// Whoever claimed the port and was killed keeps nobody out.
+// A program that claimed the port and was killed keeps nobody out.
 TEST_F(PortTest, ClaimEndsWithTheProgram) {
   plugIn();
   const auto open = [this] {

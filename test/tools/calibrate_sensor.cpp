@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 const std::string kSensor = SIGHTLINE_SOURCE_DIR "/config/sensors/synchronised_scan.yaml";
 
-// What is printed of a parameter, in mm or degrees.
+// Printed value of a parameter, in mm or degrees.
 double valueOf(const std::string& output, const std::string& key) {
   const auto begin = output.find(key);
   if (begin == std::string::npos) return std::nan("");

@@ -9,7 +9,7 @@
 
 namespace sightline::test {
 
-/// What a program said, on either channel, and its exit status.
+/// Output of a program, on either channel, and its exit status.
 struct ProgramResult {
   int status = 0;
   std::string output;

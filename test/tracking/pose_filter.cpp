@@ -139,8 +139,8 @@ TEST(PoseFilter, SharedMotionOfASweepIsNotAveragedAway) {
   EXPECT_GT(variance, 0.5e-4);
 }
 
-// What a scan says of the motion in its sweep holds for the first half of the step that follows;
-// the other half errs anew.
+// The motion that a scan shows in its sweep holds for the first half of the step that follows; the
+// other half errs anew.
 TEST(PoseFilter, PredictionIsConsistentWithWhatTheSweepToldOfTheMotion) {
   motion::OdometryNoise odometry = motion::OdometryNoise::unmeasured();
   odometry.scale_sigma = 0.0;

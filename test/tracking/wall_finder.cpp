@@ -67,8 +67,7 @@ TEST(WallFinder, CovarianceOfItsFitsHolds) {
     }
   }
   ASSERT_GT(count, 1000);
-  // Where the residuals exceed the noise they widen the covariance, never the other way: a little
-  // below two.
+  // Residuals that exceed the noise widen the covariance, never the other way: a little below two.
   EXPECT_GT(sum / count, 1.7);
   EXPECT_LT(sum / count, 2.1);
 }

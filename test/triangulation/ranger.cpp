@@ -19,7 +19,7 @@ Calibration calibration() {
   return {parameters, modelledTable(parameters, tableDepths(0.35, 2.85, 40))};
 }
 
-// Without noise.
+// Photocurrents without noise.
 Photocurrents currentsOf(const Ranger& ranger, std::size_t beam, double range, double total) {
   const SensorParameters& parameters = ranger.calibration().parameters;
   const ProjectionGeometry geometry(parameters.intrinsics);
@@ -94,7 +94,8 @@ TEST(Ranger, VarianceIsThatOfTheRange) {
   }
 }
 
-// Of a scan: taken at the neighbours' position, it does not depend on the range's own error.
+// The variance in a scan is taken at the neighbours' position and does not depend on the range's
+// own error.
 TEST(Ranger, VarianceInAScanIsThatOfTheRange) {
   const Ranger ranger(calibration());
   test::Gauss gauss(6);

@@ -1,4 +1,4 @@
-// What a rooms file can do wrong, and how the error tells.
+// Faults of a rooms file, and the errors that tell them.
 #include <gmock/gmock.h>
 
 #include "config_error.h"

@@ -32,7 +32,7 @@ doors: [{between: [a, b], at: [0, 0], width: 0.8}]
   EXPECT_EQ(walls.size(), 10u);
 }
 
-// From anywhere in either room, no ray may leave the rooms and the opening of the door.
+// No ray from anywhere in either room may leave the rooms and the opening of the door.
 TEST(SolidWalls, NobodyLooksBetweenTheWallsOfADoor) {
   const RoomMap map = solidMap(R"(
 rooms:

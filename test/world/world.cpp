@@ -16,8 +16,7 @@ Ray levelRay(double x, double y, double angle, double height = 1.0) {
   return {{x, y, height}, {std::cos(angle), std::sin(angle), 0.0}};
 }
 
-// By solving start + u (end − start) = origin + t direction for each segment, as a school book
-// does.
+// Solves start + u (end − start) = origin + t direction for each segment, as a school book does.
 std::optional<double> bruteForce(const World& world, const Ray& ray) {
   std::optional<double> nearest;
   for (const WorldSegment& s : world.segments()) {

@@ -19,7 +19,7 @@
 
 namespace sightline::bridge {
 
-/// What an active sensor's topics, frames and joint are called.
+/// Names of an active sensor's topics, frames and joint.
 struct ActiveSensorNames {
   std::string range_scan = "range_scan";
   std::string scan = "scan";
@@ -30,7 +30,7 @@ struct ActiveSensorNames {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// Where a head was at a time.
+/// Position of a head at one time.
 struct HeadSample {
   std::int64_t stamp = 0;  ///< [ns]
   double angle = 0.0;      ///< of its joint [rad]
@@ -48,7 +48,7 @@ class ActiveSensorTopics {
                      const motion::HeadLimits& limits, diagnostic_updater::Updater& updater,
                      OnHeadCommand on_command);
 
-  /// From now on publishHead() also tells tf where the head is in its mount.
+  /// Makes publishHead() also tell tf where the head is in its mount, from now on.
   void broadcastHead() { broadcaster_.emplace(); }
 
   /// Publishes the range scan and the scan, both with the stamp that it carries [ns].

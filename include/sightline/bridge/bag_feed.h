@@ -19,7 +19,7 @@
 
 namespace sightline::bridge {
 
-/// Where the scanners sit on the base, as static transforms.
+/// Static transforms of the mountings of the scanners on the base.
 tf2_msgs::TFMessage mountingTransforms(const pipeline::EstimatorsConfig& config);
 
 /// A feed over recordings, read as one in the order of their time, with little memory however long
@@ -31,7 +31,7 @@ class BagFeed {
     std::function<void(pipeline::LocatedScan, const ros::Time& now)> scan;
     /// Each message of a scan or a transform as it stands in the bag.
     std::function<void(const rosbag::MessageInstance&)> message;
-    /// After each message, the ratio of the bags' time that has been read, 0 to 1.
+    /// Called after each message with the ratio of the bags' time that has been read, 0 to 1.
     std::function<void(double)> progress;
   };
 
@@ -44,12 +44,12 @@ class BagFeed {
 
   /// Messages on the topics of the scans.
   std::size_t scans() const;
-  /// How many of them could not be used, by reason.
+  /// Number of them that could not be used, by reason.
   std::map<std::string, std::size_t> dropped() const;
-  /// How many messages of odometry and inertial sensor could not be used, by reason.
+  /// Number of messages of odometry and inertial sensor that could not be used, by reason.
   const std::map<std::string, std::size_t>& refused() const { return refused_; }
   std::size_t withoutMotion() const;
-  /// From the first to the last scan [s].
+  /// Time from the first scan to the last [s].
   double duration() const { return (last_scan_ - first_scan_).toSec(); }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace sightline::bridge {
 
-/// How a CARMEN log becomes a bag.
+/// Options for making a bag of a CARMEN log.
 struct CarmenBagOptions {
   bool reverse_from_tv = false;  ///< repair odometry that counts forward while the robot backs
   double odometry_delay = 0.0;   ///< [s] the odometry is stamped later by this
@@ -17,7 +17,7 @@ struct CarmenBagOptions {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// What a bag was filled with.
+/// Contents of the bag that was written.
 struct CarmenBagContents {
   std::size_t scans = 0;
   std::size_t odometry = 0;
@@ -26,7 +26,7 @@ struct CarmenBagContents {
 /// Writes /scan, /odom and /tf (odom→base_link, base_link→laser) in the order of their stamps.
 ///
 /// Scans are stamped with their ipc_time and taken as made at once, since CARMEN does not log how
-/// long a sweep takes. What lies at or beyond the range limit (of the line, of the parameter
+/// long a sweep takes. A reading at or beyond the range limit (of the line, of the parameter
 /// robot_front_laser_max, or else the 81 m from which on a SICK LMS reports faults) is +Inf; a
 /// reading of zero or less is NaN. The mounting is repeated with each odometry pose, so that the
 /// bag can be played from anywhere.

@@ -10,8 +10,8 @@
 
 namespace sightline::bridge {
 
-/// How a device session does, in diagnostics, by the keys of REP-138, and in the log whenever it
-/// changes.
+/// Reports the state of a device session: in diagnostics, by the keys of REP-138, and in the log
+/// whenever it changes.
 class DeviceDiagnostics {
  public:
   /// Registers with the updater. All of them have to live as long.

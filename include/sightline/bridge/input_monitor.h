@@ -8,8 +8,8 @@
 
 namespace sightline::bridge {
 
-/// What became of the messages of one input: counts what was used and what was dropped with the
-/// last reason, logs a drop once every 10 s, and shows it all in diagnostics.
+/// Counts the messages of one input that were used and those that were dropped, with the last
+/// reason; logs a drop once every 10 s, and shows it all in diagnostics.
 class InputMonitor {
  public:
   /// Registers with the updater, which has to live as long.

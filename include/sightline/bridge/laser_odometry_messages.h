@@ -14,7 +14,7 @@ nav_msgs::Odometry toLaserOdometryMessage(const dead_reckoning::DeadReckoningUpd
                                           const std::string& odom_frame,
                                           const std::string& base_frame);
 
-/// One word for a state.
+/// Name of a state, one word.
 const char* nameOf(dead_reckoning::MatchState state);
 
 }  // namespace sightline::bridge

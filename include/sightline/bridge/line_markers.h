@@ -12,7 +12,7 @@
 
 namespace sightline::bridge {
 
-/// How segments are drawn.
+/// Settings of drawn segments.
 struct LineMarkersConfig {
   double width = 0.04;  ///< [m]
   bool labels = false;

@@ -20,7 +20,7 @@ class LineOutput {
              const LineMarkersConfig& markers = {});
 
   void write(const pipeline::Estimates& estimates);
-  /// What has been written, a line of text each.
+  /// Summary of all that has been written, a line of text each.
   std::vector<std::string> summary() const;
 
  private:

@@ -13,7 +13,8 @@ namespace sightline::bridge {
 std_msgs::ColorRGBA colour(float r, float g, float b, float a = 1.0F);
 /// [m]
 geometry_msgs::Point toPoint(const Eigen::Vector2d& point, double height);
-/// To be added, in the frame of the header, with the width of its lines [m].
+/// A marker that adds its shape to the picture, in the frame and at the stamp of the header; its
+/// lines are `width` wide [m].
 visualization_msgs::Marker emptyMarker(const std::string& name, int type,
                                        const std_msgs::Header& header, double width);
 

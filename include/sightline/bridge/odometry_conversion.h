@@ -10,7 +10,7 @@
 
 namespace sightline::bridge {
 
-/// Where and when an odometry message holds.
+/// Stamp and frames of an odometry message.
 struct OdometryHeader {
   std::int64_t stamp = 0;   ///< [ns]
   std::string frame;        ///< of the pose

@@ -20,7 +20,7 @@ class OdometryOutput {
   /// not from.
   std::string write(const pipeline::Estimates& estimates);
 
-  /// How many scans were matched with this outcome.
+  /// Number of scans that were matched with this outcome.
   std::size_t count(dead_reckoning::MatchState state) const {
     return states_[static_cast<std::size_t>(state)];
   }

@@ -12,7 +12,7 @@
 
 namespace sightline::bridge {
 
-/// Where messages of one type go: a topic of a running graph, or a connection of a bag.
+/// Destination of messages of one type: a topic of a running graph, or a connection of a bag.
 template <class Message>
 struct Port {
   std::function<void(const Message&)> write;
@@ -29,10 +29,10 @@ class Output {
   /// as long.
   Output(rosbag::Bag& bag, const ros::Time& now) : bag_(&bag), now_(&now) {}
 
-  /// Of a latched port the last message is repeated to late subscribers.
+  /// Opens a port. The last message of a latched port is repeated to late subscribers.
   template <class Message>
   Port<Message> open(const std::string& topic, bool latched = false);
-  /// For transforms of moving frames.
+  /// Opens a port for transforms of moving frames.
   Port<tf2_msgs::TFMessage> openTransforms() { return open<tf2_msgs::TFMessage>("/tf"); }
   bool isBag() const { return bag_ != nullptr; }
 
@@ -60,7 +60,7 @@ template <class Message>
 Port<Message> Output::openTopic(const std::string& topic, bool latched) {
   constexpr std::uint32_t kQueue = 100;  // scans that waited for something come in a burst
   const ros::Publisher publisher = node_->advertise<Message>(topic, kQueue, latched);
-  // By pointer, so that nodelets of one process are not served copies.
+  // Published by pointer, so that nodelets of one process are not served copies.
   return {[publisher](const Message& message) {
             publisher.publish(boost::make_shared<const Message>(message));
           },

@@ -22,7 +22,7 @@ geometry_msgs::Pose toPose(const geometry::Pose2& pose);
 geometry_msgs::Transform toTransform(const geometry::Pose2& pose);
 geometry_msgs::Quaternion toQuaternion(double yaw);
 
-/// What tf is told: where the frame `child` is in `parent` at a time [ns].
+/// Message to tf: the pose of the frame `child` in `parent` at a time [ns].
 geometry_msgs::TransformStamped toTransformMessage(const std::string& parent,
                                                    const std::string& child, std::int64_t stamp,
                                                    const geometry::Pose2& T_parent_child);

@@ -10,9 +10,9 @@ namespace sightline::bridge {
 
 RangeScan toMessage(const motion::RangeScan& range_scan);
 
-/// What a consumer that knows no other message gets of it: intensities are the currents in nA. The
-/// frame is that of the first beam, and no beam tells how the head went on turning: who needs that
-/// takes it from tf, beam by beam with time_increment.
+/// The same beams for a consumer that knows no other message: intensities are the currents in nA.
+/// The frame is that of the first beam, and no beam tells how the head went on turning; a consumer
+/// that needs it takes it from tf, beam by beam with time_increment.
 sensor_msgs::LaserScan toLaserScan(const RangeScan& message);
 
 /// Range scans from messages.

@@ -12,7 +12,7 @@
 /// of its .cfg file and none here.
 namespace sightline::bridge {
 
-/// What a struct holds put into the settings of a message that have its fields' names.
+/// Puts the values of a struct into the settings of a message that have its fields' names.
 class ReconfigureWriter : public config::FieldObserver {
  public:
   explicit ReconfigureWriter(dynamic_reconfigure::Config& message) : message_(message) {}

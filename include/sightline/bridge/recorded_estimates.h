@@ -11,8 +11,8 @@
 
 namespace sightline::bridge {
 
-/// What estimators find over a recording, written to a bag and to one trajectory, `rooms.tum` and
-/// `odometry.tum`, for each estimator that has a pose.
+/// Runs the estimators over a recording and writes their results to a bag, and to one trajectory,
+/// `rooms.tum` and `odometry.tum`, for each estimator that has a pose.
 class RecordedEstimates {
  public:
   /// Opens DIR/out.bag and the trajectories. Throws config::Error.
@@ -23,9 +23,10 @@ class RecordedEstimates {
   void take(pipeline::LocatedScan located, const ros::Time& now);
   /// Copies a message as it stands.
   void copy(const rosbag::MessageInstance& message);
-  /// To be called after the last scan. Throws config::Error if a file could not be written.
+  /// Ends the files; call it after the last scan. Throws config::Error if a file could not be
+  /// written.
   void close();
-  /// What has been found, a line of text each.
+  /// Summary of the results, a line of text each.
   std::vector<std::string> summary() const;
 
  private:

@@ -14,7 +14,7 @@
 
 namespace sightline::bridge {
 
-/// How the pose in the rooms is told.
+/// Settings of the output of room poses.
 struct RoomOutputConfig {
   bool publish_tf = true;            ///< whether map→odom is broadcast
   double transform_tolerance = 0.0;  ///< the broadcast is dated this much after the scan [s]

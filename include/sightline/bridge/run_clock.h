@@ -20,11 +20,12 @@ class RunClock {
   /// up.
   RunClock(ros::NodeHandle node, double speed_factor);
 
-  /// How far the run, now at `run_time`, should have come.
+  /// Time that the run, now at `run_time`, should have reached.
   std::int64_t due(std::int64_t run_time);
-  /// When a moment of the run happens in ROS [ns].
+  /// Time in ROS of a moment of the run [ns].
   std::int64_t stampOf(std::int64_t run_time) const { return start_ + run_time; }
-  /// To be called as the run moves on, before anything of that time is published.
+  /// Publishes the time of the run; call it as the run moves on, before anything of that time is
+  /// published.
   void publish(std::int64_t run_time);
 
  private:

@@ -10,7 +10,7 @@
 
 namespace sightline::bridge {
 
-/// What a bag holds of a robot that was tracked while its true pose was known.
+/// Recording of a robot that was tracked while its true pose was known.
 struct RecordedRun {
   std::vector<std::int64_t> scans;  ///< stamps [ns], in order
   logs::Trajectory poses;           ///< T_map_base as tracked
@@ -25,7 +25,7 @@ struct RecordedRun {
 /// the file is no bag or misses one of the first three.
 RecordedRun readRun(const std::string& bag);
 
-/// How far off a pose may be.
+/// Largest errors of a pose that are accepted.
 struct PoseBounds {
   double position = 0.15;                   ///< [m]
   double heading = geometry::radians(3.0);  ///< [rad]
@@ -38,7 +38,7 @@ struct PoseError {
   double heading = 0.0;    ///< [rad], not negative
 };
 
-/// How well a run was tracked.
+/// Accuracy and completeness of a tracked run.
 struct RunReport {
   std::size_t scans_before = 0;   ///< the first pose
   std::size_t scans_after = 0;    ///< the last pose

@@ -144,8 +144,8 @@ class FieldVisitor {
   }
 };
 
-/// What a member holds. Paths and choices are texts, poses are x, y and yaw, a pose that is not
-/// there is an empty list.
+/// Value of a member. Paths and choices are texts, poses are x, y and yaw, a pose that is not there
+/// is an empty list.
 using Value =
     std::variant<double, int, bool, std::string, std::vector<double>, std::vector<std::string>>;
 Value valueOf(const Member& member);

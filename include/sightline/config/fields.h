@@ -6,10 +6,10 @@
 #include "sightline/config/field_visitor.h"
 #include "sightline/config/node.h"
 
-/// What is done with field lists: reading, checking, documenting (writing: yaml_writer.h).
+/// Uses of field lists: reading, checking, documenting (writing: yaml_writer.h).
 namespace sightline::config {
 
-/// What a document may hold beyond the fields.
+/// Treatment of keys of a document that are not fields.
 enum class UnknownKeys { kRefuse, kIgnore };
 
 namespace detail {
@@ -22,7 +22,7 @@ class Reader : public FieldVisitor {
   bool wants(const char* group, bool present) override;
   std::vector<std::string> names(const std::vector<std::string>& present,
                                  const char* meaning) override;
-  /// To be called once every field has been visited.
+  /// Ends the visit; call it after every field has been visited.
   void finish();
 
  private:

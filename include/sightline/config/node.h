@@ -29,17 +29,17 @@ class Node {
   static Node parse(const std::string& text, const std::string& source);
 
   bool isMap() const;
-  /// Nothing written: an empty document, or a key without a value.
+  /// True where nothing is written: an empty document, or a key without a value.
   bool isNull() const;
-  /// Nothing written, an empty text or an empty sequence.
+  /// True where nothing is written, or an empty text or an empty sequence.
   bool isEmpty() const;
   bool has(const std::string& key) const;
   /// The value of a key that has to be there.
   Node at(const std::string& key) const;
   /// All entries of a map, in the order of the file.
   std::vector<std::pair<std::string, Node>> entries() const;
-  /// All items of a sequence; an absent or empty optional sequence is `{}` where the caller asks
-  /// has() first. A text in brackets, '[0, 0, 0]', is a sequence too: command lines and launch
+  /// All items of a sequence; throws where there is none, so ask has() before reading an optional
+  /// one. A text in brackets, '[0, 0, 0]', is a sequence too: command lines and launch
   /// files cannot say it otherwise.
   std::vector<Node> items() const;
   /// Refuses any key that is not listed: a typing error must not pass for a default.
@@ -57,7 +57,7 @@ class Node {
   std::vector<std::string> texts() const;
   /// A sequence of finite numbers.
   std::vector<double> numbers(Range range = {}) const;
-  /// As above, of exactly `count` numbers.
+  /// The same, of exactly `count` numbers.
   std::vector<double> numbers(std::size_t count, Range range = {}) const;
   /// [x, y, yaw] [m, m, rad].
   geometry::Pose2 pose(Range range = {}) const;

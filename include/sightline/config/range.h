@@ -11,7 +11,7 @@ struct Range {
   double max = std::numeric_limits<double>::infinity();
 
   bool contains(double value) const { return value >= min && value <= max; }
-  /// As it reads in messages and tables: `[0, 1]`, `> 0`, `>= 0`, `any`.
+  /// Text for messages and tables: `[0, 1]`, `> 0`, `>= 0`, `any`.
   std::string text() const;
 };
 constexpr Range kPositive{std::numeric_limits<double>::min(), std::numeric_limits<double>::max()};

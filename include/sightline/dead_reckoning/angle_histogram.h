@@ -7,9 +7,9 @@
 
 namespace sightline::dead_reckoning {
 
-/// How often each direction occurs between points `skip` beams apart (saarinen alg. 6, step 2).
-/// Directions are those of lines, without a sense: bins go over half a turn, as the arc tangent of
-/// the source does, and a wall counts alike from whichever end it is seen.
+/// Counts how often each direction occurs between points `skip` beams apart (saarinen alg. 6, step
+/// 2). Directions are those of lines, without a sense: bins go over half a turn, as the arc tangent
+/// of the source does, and a wall counts alike from whichever end it is seen.
 std::vector<double> angleHistogram(const std::vector<SurfacePoint>& points, std::size_t skip,
                                    std::size_t bins);
 

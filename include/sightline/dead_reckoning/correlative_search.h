@@ -71,8 +71,8 @@ struct SearchResult {
 
 /// Looks for a scan everywhere in a window: saarinen alg. 4, coarse to fine, with the distance to
 /// the nearest neighbour looked up in rasters of the reference. Finds the best poses of the window
-/// that are not neighbours of a better one. Of a window wider than 12 m to either side the rest is
-/// not searched.
+/// that are not neighbours of a better one. A window wider than 12 m to either side is not
+/// searched beyond that.
 ///
 /// @param rasters  drawn about the window's centre
 /// @param most     candidates

@@ -19,7 +19,7 @@
 
 namespace sightline::dead_reckoning {
 
-/// What something else says of the base's motion since the scan before: wheels, a gyroscope.
+/// Motion of the base since the scan before, as told by another sensor: wheels, a gyroscope.
 struct MotionPrior {
   geometry::Pose2 T_before_now;
   /// Covariance of its coordinates (x, y, θ) [m², m rad, rad²]. Large entries leave to the scans
@@ -27,7 +27,7 @@ struct MotionPrior {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
-/// What one scan did to the pose.
+/// Effect of one scan on the pose.
 struct DeadReckoningUpdate {
   std::int64_t stamp = 0;           ///< of the scan, ns
   geometry::UncertainPose2 pose;    ///< T_odom_base at the stamp; grows from zero at the first scan
@@ -40,7 +40,7 @@ struct DeadReckoningUpdate {
   bool isFlagged() const { return state != MatchState::kMatched && state != MatchState::kInitial; }
 };
 
-/// What a scan would do to the pose: a value, to be committed or thrown away.
+/// Effect that a scan would have on the pose: a value, to be committed or thrown away.
 struct Match {
   std::int64_t stamp = 0;       ///< of the scan, ns
   double elapsed = 0.0;         ///< since the scan before [s]; 0 where there is none
@@ -73,8 +73,9 @@ class DeadReckoner {
                                             const geometry::Pose2& T_base_sensor,
                                             const std::optional<MotionPrior>& prior = {});
 
-  /// What a scan would do. Nothing for one that is not newer than the one before. The mounting has
-  /// to be level: of a sensor upside down the angles are mirrored first, which makes them fall.
+  /// Matches a scan without changing anything. Returns nothing for a scan that is not newer than
+  /// the one before. The mounting has to be level: the scan of a sensor upside down is mirrored
+  /// first, which makes its angles fall.
   std::optional<Match> match(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
                              const std::optional<MotionPrior>& prior = {}) const;
   /// Takes a match made since the last commit, reset or restart of the clock. Throws

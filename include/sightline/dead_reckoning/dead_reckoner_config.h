@@ -12,7 +12,8 @@ enum class Method {
   kHistogram,  ///< angle histogram, then correlation of the translation (saarinen algs 5-7)
 };
 
-/// How the carrier of the scanner can move. Defaults are those of an indoor robot on wheels.
+/// Motion that the carrier of the scanner is capable of. Defaults are those of an indoor robot on
+/// wheels.
 struct CarrierConfig {
   double max_speed = 1.2;          ///< [m/s], in any direction
   double max_turn_rate = 1.5;      ///< [rad/s]

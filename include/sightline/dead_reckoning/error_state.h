@@ -7,7 +7,7 @@
 
 namespace sightline::dead_reckoning {
 
-/// What a match says of a pose.
+/// Measurement of a pose by a match.
 struct PoseMeasurement {
   /// Information on the coordinates (x, y, θ); may be singular, zero where there was no match.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -30,11 +30,11 @@ class ErrorState {
   /// Certain of pose and twist.
   void reset();
 
-  /// Against the reference, after a step from T_odom_base.
+  /// Covariance against the reference, after a step from T_odom_base.
   Eigen::Matrix3d predicted(const geometry::Pose2& T_odom_base, const StepPrediction& step) const;
 
   /// The step and the match at its end. With the gain K of the Kalman filter, the match's error v,
-  /// and what a prediction p leaves open, w, the error e of the pose becomes (1 − K)(p + w) − K v.
+  /// and w what the prediction p leaves open, the error e of the pose becomes (1 − K)(p + w) − K v.
   /// Returns the covariance of the step's coordinates in the base before it.
   Eigen::Matrix3d advance(const geometry::Pose2& T_odom_base, const StepPrediction& prediction,
                           const geometry::Pose2& step, double elapsed,

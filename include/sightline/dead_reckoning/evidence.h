@@ -7,7 +7,7 @@
 
 namespace sightline::dead_reckoning {
 
-/// What speaks for and against a pose, as shares of the scan's points, [0, 1].
+/// Evidence for and against a pose, as ratios of the scan's points, [0, 1].
 struct Evidence {
   double inliers = 0.0;         ///< lie on their counterpart in the reference
   double contradictions = 0.0;  ///< lie where the reference saw free space, or look through it
@@ -22,7 +22,7 @@ struct Evidence {
 Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeProfile& profile,
                const Submap& submap);
 
-/// What the residuals of a match say of its covariance.
+/// Statistics of the residuals of a match that its covariance depends on.
 struct ResidualStatistics {
   double variance = 1.0;     ///< in units of what was expected
   double correlation = 0.0;  ///< of neighbours, [0, 1): they share errors of the reference

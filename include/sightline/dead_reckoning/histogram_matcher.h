@@ -39,9 +39,9 @@ class HistogramMatcher : public Matcher {
   DistanceField field_;
 };
 
-/// What the searcher minimises: eq. 4.8 with D = `max_distance`. In wide cells D is as large as
-/// these, and a distance that the position may be off within the cell does not count, so that the
-/// right cell is known by its middle. The field has to be drawn with fieldDistance.
+/// Cost that the searcher minimises: eq. 4.8 with D = `max_distance`. In wide cells D is as large
+/// as these, and a distance that the position may be off within the cell does not count, so that
+/// the right cell is known by its middle. The field has to be drawn with fieldDistance.
 CellCost translationCost(const DistanceField& field, const std::vector<Eigen::Vector2d>& points,
                          double max_distance);
 /// @param half  of the square that is searched [m]

@@ -57,7 +57,8 @@ class LineMatcher {
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     Eigen::Matrix3d spurious = Eigen::Matrix3d::Zero();  // what errors of normals add to it
   };
-  /// What of the information is real, and how a gradient becomes one of that information.
+  /// Real part of the information, and the matrix that takes a gradient to the gradient of that
+  /// part.
   struct RealPart {
     Eigen::Matrix3d information;
     Eigen::Matrix3d of_gradient;

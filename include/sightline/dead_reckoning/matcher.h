@@ -14,7 +14,7 @@ namespace sightline::dead_reckoning {
 
 class SearchRasters;
 
-/// What a matcher has to know of a match again when it learns the scan.
+/// Results of a match that the matcher needs again when it learns the scan.
 struct ReferenceTrace {
   bool is_held = false;   ///< the reference scan explains the scan well enough to be kept
   bool is_fresh = false;  ///< the second reference explains the scan, the first does not
@@ -23,10 +23,10 @@ struct ReferenceTrace {
   std::shared_ptr<const SearchRasters> fresh_rasters;
 };
 
-/// What a matcher found of one scan.
+/// Result of matching one scan.
 struct MatchOutcome {
   geometry::Pose2 T_odom_base;  ///< the most probable, the prior included
-  /// What the scan alone says of its coordinates (x, y, θ); may be singular.
+  /// Information of the scan alone on the coordinates (x, y, θ); may be singular.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   /// Share of the variance of its errors that comes from the reference, and so is the same from one
   /// scan to the next.

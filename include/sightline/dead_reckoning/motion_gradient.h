@@ -10,8 +10,8 @@
 
 namespace sightline::dead_reckoning {
 
-/// How much the noise of the sensor's motion within a sweep disturbs the least squares that match
-/// it.
+/// Effect of the noise of the sensor's motion within a sweep on the least squares that match the
+/// sweep.
 ///
 /// A pose is found by δ = −(Aᵀ W A)⁻¹ Aᵀ W s, with s the residuals. Where the sensor's pose at the
 /// time of beam i errs by e(tᵢ) = (x, y, θ), point i is displaced across its surface by hᵢᵀ e(tᵢ),

@@ -17,9 +17,10 @@ struct StepPrediction {
   Eigen::Matrix3d by_twist = Eigen::Matrix3d::Zero();
 };
 
-/// What a carrier does in the next so many seconds, from its twist [m/s, m/s, rad/s]: a velocity
-/// that wanders with the carrier's acceleration and is never far beyond half of what is possible
-/// (an Ornstein-Uhlenbeck process). The longer the time, the less the last velocity counts.
+/// Predicts the step of a carrier in the next `elapsed` seconds from its twist [m/s, m/s, rad/s]:
+/// its velocity wanders with the carrier's acceleration and is never far beyond half of what is
+/// possible (an Ornstein-Uhlenbeck process). The longer the time, the less the last velocity
+/// counts.
 StepPrediction predictStep(const CarrierConfig& carrier, const Eigen::Vector3d& twist,
                            double elapsed);
 

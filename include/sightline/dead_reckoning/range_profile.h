@@ -11,7 +11,7 @@
 
 namespace sightline::dead_reckoning {
 
-/// What a place is to somebody who looks towards it.
+/// Relation of a place to a scanner that looks towards it.
 enum class Sight : std::uint8_t {
   kUnknown,  ///< no beam went there
   kFree,     ///< beams passed through
@@ -19,7 +19,7 @@ enum class Sight : std::uint8_t {
   kHidden,   ///< behind where they ended
 };
 
-/// How far a scan sees in each direction.
+/// Ranges of a scan in each direction.
 class RangeProfile {
  public:
   RangeProfile();

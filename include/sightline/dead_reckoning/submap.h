@@ -46,10 +46,10 @@ class Submap {
 
   /// Oldest first.
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
-  /// What a place [m, odom] is to the newest keyframe that knows, of the newest 50.
+  /// Sight of a place [m, odom] by the newest keyframe that knows it, among the newest 50.
   Sight sightOf(const Eigen::Vector2d& point) const;
   const std::vector<Surfel>& surfels() const { return surfels_; }
-  /// Another number after each change.
+  /// Number that changes with each change of the submap.
   std::uint64_t version() const { return version_; }
 
  private:

@@ -9,7 +9,7 @@
 
 namespace sightline::dead_reckoning {
 
-/// Where a beam ended, and the surface there as its neighbours show it.
+/// Return of a beam, and the surface there as its neighbours show it.
 struct SurfacePoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m], in the base at the scan's stamp
   /// Unit normal towards the sensor; zero where the neighbours show no straight surface.
@@ -22,19 +22,19 @@ struct SurfacePoint {
   bool hasNormal() const { return normal != Eigen::Vector2d::Zero(); }
 };
 
-/// When and from where a point was seen.
+/// Time and place from which a point was seen.
 struct Sighting {
   double time = 0.0;  ///< since the first beam, as a share of the sweep's, [0, 1]
   Eigen::Vector2d sensor_base = Eigen::Vector2d::Zero();  ///< of the sensor then [m]
 };
 
-/// What one scan shows of the surfaces around.
+/// Surfaces around, as one scan shows them.
 struct SurfaceScan {
   std::vector<SurfacePoint> points;                  ///< of the valid beams, in their order
   Eigen::Vector2d sensor = Eigen::Vector2d::Zero();  ///< in the base, at the stamp [m]
   double beam_angle = 0.0;                           ///< from one beam to the next [rad]
-  /// What is not known of the sensor's motion, along the axes of the base. The jitter is in the
-  /// variances of the points.
+  /// Noise of the sensor's motion, along the axes of the base. The jitter is in the variances of
+  /// the points.
   scan::MotionNoise motion_noise;
   /// One entry a point; empty where drift and walk of the motion are zero.
   std::vector<Sighting> sightings;

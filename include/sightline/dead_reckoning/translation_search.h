@@ -36,7 +36,7 @@ class DistanceField {
   std::vector<float> distances_;
 };
 
-/// Where a cost over the plane is least.
+/// Least value of a cost over the plane, and its place.
 struct Minimum {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double cost = 0.0;

@@ -14,7 +14,7 @@
 
 namespace sightline::driver {
 
-/// Which device is to be talked to, over which line.
+/// Device to be talked to, and the line to it.
 struct ConversationConfig {
   std::string serial;       ///< the device's number, as in its calibration
   std::size_t samples = 0;  ///< a scan, likewise
@@ -51,13 +51,13 @@ class Conversation {
   /// returns.
   Conversation(ConversationConfig config, OnScan on_scan);
 
-  /// The line has been opened: whoever is at its end has to say so.
+  /// Starts on a line that has just been opened: the device at its end has to identify itself.
   void open(const Moment& now);
   void receive(ByteView bytes, const Moment& now);
-  /// What is due to be sent, to be asked for every hundredth of a second or so; good until the next
+  /// Bytes that are due to be sent; call it every hundredth of a second or so. Good until the next
   /// call.
   const std::vector<std::uint8_t>& send(const Moment& now);
-  /// What ends it.
+  /// Bytes that end the conversation.
   const std::vector<std::uint8_t>& stop(const Moment& now);
   /// Given up unless the device acknowledges within a second.
   void command(const motion::HeadCommand& command, const Moment& now);
@@ -120,7 +120,7 @@ class Conversation {
   std::size_t broken_before_ = 0;  // by then
   std::int64_t last_asked_ = 0;
   std::int64_t last_ping_ = 0;
-  bool greet_ = false;  // a device has just said who it is
+  bool just_identified_ = false;  // a device has just identified itself
 };
 
 }  // namespace sightline::driver

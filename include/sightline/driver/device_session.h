@@ -24,7 +24,7 @@ struct SessionConfig {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// How a session stands.
+/// State of a session.
 struct SessionStatus {
   Trouble trouble;
   bool is_scanning = false;

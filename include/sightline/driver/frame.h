@@ -32,7 +32,7 @@ struct FrameHeader {
   std::uint32_t clock = 0;  ///< the sender's, when the first byte goes onto the line [µs], wraps
 };
 
-/// A frame whose checksums are right. The payload lies in the buffer of whoever made it.
+/// A frame whose checksums are right. The payload lies in the buffer of its maker.
 struct Frame {
   FrameHeader header;
   ByteView payload;

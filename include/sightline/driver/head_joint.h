@@ -20,7 +20,7 @@ struct HeadFrames {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// What a robot description says of them.
+/// Joint and frames of a head as a robot description has them.
 struct HeadJoint {
   /// Lower and upper end, and the largest rate; the rest is as for any servo of this sensor.
   motion::HeadLimits limits;

@@ -29,7 +29,7 @@ struct Stop {
   bool read(ByteReader&) { return true; }
 };
 
-/// Where the head shall turn. Angles travel in whole microradians.
+/// Target of the head. Angles travel in whole microradians.
 struct HeadTarget {
   static constexpr FrameKind kKind = FrameKind::kHeadTarget;
   motion::HeadCommand command;
@@ -46,7 +46,7 @@ struct Ping {
   bool read(ByteReader& reader);
 };
 
-/// Who is there; the answer to Identify, and what a device says once it has started.
+/// Identity of a device: the answer to Identify, and its message once it has started.
 struct Identity {
   static constexpr FrameKind kKind = FrameKind::kIdentity;
   std::string model;   ///< at most 16 characters of ASCII

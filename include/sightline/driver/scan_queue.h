@@ -14,7 +14,7 @@ namespace sightline::driver {
 /// byte late.
 class ScanQueue {
  public:
-  /// Where so many wait, the oldest gives way.
+  /// The oldest scan gives way where `capacity` scans wait.
   explicit ScanQueue(std::size_t capacity) : capacity_(capacity) {}
 
   void push(const triangulation::RawScan& scan);

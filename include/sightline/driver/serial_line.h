@@ -18,7 +18,7 @@ class SerialLine {
   SerialLine(const SerialLine&) = delete;
   SerialLine& operator=(const SerialLine&) = delete;
 
-  /// Whatever came before is dropped. Without trouble the port is open.
+  /// Opens the port; bytes that came before are dropped. Without trouble it is open afterwards.
   Trouble open(const std::string& path, int baud_rate);
   void close();
   bool isOpen() const { return port_.is_open(); }

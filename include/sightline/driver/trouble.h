@@ -4,7 +4,7 @@
 
 namespace sightline::driver {
 
-/// Why there are no scans.
+/// Reason for the absence of scans.
 enum class Fault {
   kNone,
   kNoSuchPort,

@@ -56,8 +56,8 @@ std::optional<ArcFit> startArc(const ArcObservations& observations);
 std::optional<ArcFit> refineArc(const ArcObservations& observations, const ArcFit& start,
                                 double gate);
 
-/// How a fitted circle answers to a displacement of one return's end point, the others held:
-/// ∂(x, y, radius) by it, zero for a return beyond the gate.
+/// Response of a fitted circle to a displacement of one return's end point, the others held: ∂(x,
+/// y, radius) by it, zero for a return beyond the gate.
 Eigen::Matrix<double, 3, 2> responseTo(const ArcReturn& of, const ArcFit& fit, double gate);
 /// The same for a ray that is displaced and turned about its origin: ∂(x, y, radius) by (x, y, θ).
 Eigen::Matrix3d responseTo(const ArcTangent& of, const ArcFit& fit, double gate);

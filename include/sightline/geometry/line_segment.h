@@ -8,7 +8,7 @@
 
 namespace sightline::geometry {
 
-/// Why a segment ends where it ends; values as in LineSegment.msg.
+/// Reason for the end of a segment; values as in LineSegment.msg.
 enum class EndKind : std::uint8_t {
   kUnknown = 0,
   kCorner = 1,         ///< two walls meet

@@ -33,7 +33,7 @@ PolarLine canonical(const PolarLine& line);
 /// pure rotation about a point). Exact in value, first order in covariance.
 PolarLine transform(const Pose2& T_target_source, const PolarLine& line_source);
 
-/// As above where the transform is uncertain too, independently of the line.
+/// The same where the transform is uncertain too, independently of the line.
 PolarLine transform(const UncertainPose2& T_target_source, const PolarLine& line_source);
 
 /// ∂(ρ, φ)target / ∂(ρ, φ)source of `transform`.

@@ -68,7 +68,8 @@ inline Pose2 between(const Pose2& a, const Pose2& b) {
   return a.inverse() * b;
 }
 
-/// On the path of constant body velocity from a (ratio 0) to b (ratio 1); other ratios extrapolate.
+/// Pose on the path of constant body velocity from a (ratio 0) to b (ratio 1); other ratios
+/// extrapolate.
 Pose2 interpolate(const Pose2& a, const Pose2& b, double ratio);
 
 /// A pose and the covariance of its coordinates (x, y, θ) [m², m rad, rad²].

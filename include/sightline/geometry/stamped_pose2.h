@@ -9,13 +9,13 @@
 
 namespace sightline::geometry {
 
-/// Where something was at a time.
+/// Pose of something at one time.
 struct StampedPose2 {
   std::int64_t stamp = 0;  ///< [ns]
   Pose2 pose;
 };
 
-/// How far a time is on the way from one stamp (0) to a later one (1).
+/// Ratio of the time from one stamp (0) to a later one (1) that has passed.
 inline double ratioBetween(std::int64_t before, std::int64_t after, std::int64_t stamp) {
   return static_cast<double>(stamp - before) / static_cast<double>(after - before);
 }

@@ -18,14 +18,14 @@ struct Run {
   std::size_t size() const { return end - first; }
 };
 
-/// Where round things may be: among the returns that lie on no wall, or on walls that may be chords
-/// of a curve, because they bend alike where they adjoin or the noise does not explain their
-/// residuals.
+/// Finds runs of returns that may lie on something round: returns that lie on no wall, or on walls
+/// that may be chords of a curve, because they bend alike where they adjoin or the noise does not
+/// explain their residuals.
 class ArcRuns {
  public:
   explicit ArcRuns(const LineExtractorConfig& config);
 
-  /// To be called first: looks at all returns and pieces of a scan.
+  /// Looks at all returns and pieces of a scan; call it first.
   void assign(const BeamArray& beams, const std::vector<Piece>& pieces);
   /// Runs over everything but sure walls. On a full circle none is cut by the seam. Valid until the
   /// next call.
@@ -36,7 +36,7 @@ class ArcRuns {
   bool isDoubtfulWall(std::size_t i) const { return ownerOf(i) == Owner::kDoubtfulWall; }
 
  private:
-  /// What a return lies on.
+  /// Wall that a return lies on.
   enum class Owner : std::uint8_t { kNone, kDoubtfulWall, kWall };
 
   Owner ownerOf(std::size_t i) const { return owners_[i % owners_.size()]; }

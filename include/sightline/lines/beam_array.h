@@ -9,7 +9,7 @@
 
 namespace sightline::lines {
 
-/// How far past its end an array of beams may be read.
+/// Number of beams past the end of an array that may be read.
 constexpr std::size_t kPadding = 8;
 
 /// The valid returns of a scan in the order of the sweep, one array a quantity, in the frame of the

@@ -8,7 +8,7 @@
 
 namespace sightline::lines {
 
-/// How beams lie to a line.
+/// Residuals of beams against a line.
 ///
 /// With the beam from o along d ending in p, the predicted range is r̂ = (ρ − n·o) / (n·d), which is
 /// pears eq. 27 for a sensor that has moved to o, and the innovation ν = r − r̂ = (n·p − ρ) / (n·d).
@@ -27,7 +27,7 @@ struct BeamResiduals {
 /// A beam closer to parallel than this sine measures nothing about the line.
 constexpr float kMinIncidence = 0.01F;
 
-/// Of kLanes beams from a return on.
+/// Residuals of kLanes beams from a return on.
 inline BeamResiduals residualsOf(const BeamArray& beams, std::size_t first,
                                  const LineEstimate& line) {
   const auto nx = static_cast<float>(line.normal_x);
@@ -63,7 +63,7 @@ inline bool isWithin(const BeamArray& beams, std::size_t i, const LineEstimate& 
   return residualsOf(beams, i, line).squared()[0] <= gate_squared;
 }
 
-/// Where a beam meets the line, along it [m].
+/// Position along the line at which a beam meets it [m].
 inline double positionOn(const BeamArray& beams, std::size_t i, const LineEstimate& line) {
   return static_cast<double>(residualsOf(beams, i, line).position[0]);
 }

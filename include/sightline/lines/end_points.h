@@ -9,7 +9,7 @@
 
 namespace sightline::lines {
 
-/// Where a wall ends and why.
+/// End of a wall and its reason.
 struct EndPoint {
   double position = 0.0;  ///< along the line [m]
   double variance = 0.0;  ///< [m²]
@@ -29,7 +29,7 @@ class EndPoints {
 
  private:
   enum class Side { kStart, kEnd };
-  /// Where a beam would meet the line.
+  /// Point at which a beam would meet the line.
   struct Meeting {
     double position;
     double range;

@@ -20,9 +20,9 @@ class Gap {
     return beams.beam[to] - beams.beam[from] <= 1 + max_missing_;
   }
 
-  /// From the return `from` to the return `to`, `length` apart on the line, with every return
-  /// between them off the line. One stray return is no opening, nor are a few beams that came back
-  /// with nothing; anything else is judged by its length.
+  /// Judges the gap from the return `from` to the return `to`, `length` apart on the line, with
+  /// every return between them off the line. One stray return is no opening, nor are a few beams
+  /// that came back with nothing; anything else is judged by its length.
   bool mayBridge(const BeamArray& beams, std::size_t from, std::size_t to, double length) const {
     return std::abs(length) <= max_length_ || (to - from <= 2 && isSmall(beams, from, to));
   }

@@ -20,7 +20,7 @@ namespace sightline::lines {
 /// The line filter of pears section 4 finds the pieces. Each is then fitted to its beams by maximum
 /// likelihood, the breaks between neighbours are put where the two lines explain the beams best,
 /// and pieces of one wall are joined; what is left that is long enough, and that the noise of the
-/// beams explains, is a wall. What is likelier round than straight is an arc.
+/// beams explains, is a wall. A run that is likelier round than straight is an arc.
 class LineExtractor {
  public:
   /// Throws config::Error where a setting is out of range.

@@ -18,8 +18,8 @@ namespace sightline::lines {
 ///
 /// pears moves the state into the sensor's frame of every beam (eqs 20-25). Here the beams have
 /// been moved into the frame of the scan at its stamp instead, where a wall stands still and the
-/// prediction is the identity: the same filter, for any planar motion. What is not known of the
-/// motion widens the gate of the prediction (Q of eq. 21). Observations are validated
+/// prediction is the identity: the same filter, for any planar motion. The noise of the motion
+/// widens the gate of the prediction (Q of eq. 21). Observations are validated
 /// several at once against one prediction and taken in one update.
 class LineFilter {
  public:
@@ -37,7 +37,7 @@ class LineFilter {
 
  private:
   static constexpr std::size_t kBlock = kPadding;
-  /// Of kBlock observations against one prediction.
+  /// Residuals of kBlock observations against one prediction.
   struct Validation {
     BeamResiduals residuals[kBlock / kLanes];
     float excess[kBlock];    // beyond the gate where positive

@@ -12,7 +12,8 @@
 
 namespace sightline::lines {
 
-/// When a beam was sent, from the first (0) to the last (1); 0 where all are sent at once.
+/// Ratio of the sweep's time at which a beam was sent, from the first beam (0) to the last (1); 0
+/// where all are sent at once.
 double timeRatio(const scan::Scan& scan, std::size_t beam);
 /// Covariance that drift and walk make of the sensor's coordinates (x, y, θ) in a part of the
 /// sweep.
@@ -36,8 +37,8 @@ class MotionSum {
   void add(double time_ratio, const Response& response) {
     terms_.push_back({time_ratio, response});
   }
-  /// In one pass over the terms, from the latest to the earliest: the stretch of walk between two
-  /// of them moves all that come after it.
+  /// Covariance of the sum, in one pass over the terms from the latest to the earliest: the stretch
+  /// of walk between two of them moves all that come after it.
   Covariance covariance(const scan::MotionNoise& noise);
 
  private:

@@ -3,8 +3,9 @@
 #include <cstddef>
 #include <cstring>
 
-/// In front of a function with a loop over packets: compiled for AVX2, too, where the compiler can,
-/// and chosen by the processor when the program is loaded. Sanitizers are not ready that early.
+/// Attribute of a function with a loop over packets: compiled for AVX2, too, where the compiler
+/// can, and chosen by the processor when the program is loaded. Sanitizers are not ready that
+/// early.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define SIGHTLINE_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))

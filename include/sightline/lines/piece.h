@@ -30,7 +30,7 @@ bool refine(const BeamArray& beams, double gate_squared, Piece& piece);
 /// Whether it has enough returns, and the noise explains their residuals.
 bool isWall(const Piece& piece, const LineExtractorConfig& config);
 
-/// From its first return to its last along the line [m].
+/// Length of a piece from its first return to its last along the line [m].
 double extent(const BeamArray& beams, const Piece& piece);
 
 }  // namespace sightline::lines

@@ -23,7 +23,7 @@ class PlainExtractor {
   /// Points of the batch start (k of section 4.6).
   static constexpr std::size_t kStart = 5;
 
-  /// Of the settings, gate and min_beams count. Throws config::Error.
+  /// Uses gate and min_beams of the settings alone. Throws config::Error.
   explicit PlainExtractor(const LineExtractorConfig& config = {});
 
   /// Segments in the scan's frame at its stamp, in the order of their first beams; kinds of ends

@@ -12,8 +12,8 @@
 
 namespace sightline::lines {
 
-/// What drift and walk of the sensor's motion do to what is extracted from a scan (pears eqs 14,
-/// 21, 23 and 24). Errors of one beam each, jitter among them, are in the BeamArray.
+/// Effect of drift and walk of the sensor's motion on the lines extracted from a scan (pears eqs
+/// 14, 21, 23 and 24). Errors of one beam each, jitter among them, are in the BeamArray.
 ///
 /// A line is fitted with the weights that the noise of the beams asks for; how it answers to a
 /// displacement of each beam is linear, and so the covariance of the motion goes into that of the

@@ -64,12 +64,12 @@ class CarmenReader {
   /// on what is no text.
   std::optional<CarmenMessage> next();
 
-  /// How many lines could not be understood, and what was wrong with the first of them.
+  /// Number of lines that could not be understood, and the fault of the first of them.
   std::size_t badLines() const { return bad_lines_; }
   const std::string& firstFault() const { return first_fault_; }
-  /// Where and how the log is cut off, empty if it is whole.
+  /// Description of the place where the log is cut off; empty if it is whole.
   const std::string& cutOff() const { return cut_off_; }
-  /// How many lines there were of each kind that is not read.
+  /// Number of lines of each kind that is not read.
   const std::map<std::string, std::size_t>& skipped() const { return skipped_; }
 
  private:

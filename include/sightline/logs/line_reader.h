@@ -21,7 +21,7 @@ class LineReader {
   bool next(std::string& line);
 
   const std::string& path() const { return path_; }
-  /// Of the line returned last, from 1.
+  /// Number of the line returned last, from 1.
   int number() const { return number_; }
   /// Whether the line returned last ran into the end of the file instead of a line end.
   bool isUnterminated() const { return unterminated_; }

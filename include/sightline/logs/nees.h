@@ -11,7 +11,7 @@ namespace sightline::logs {
 /// definite.
 double nees(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance);
 
-/// Of a pose, in (x, y, θ) with the heading's error wrapped: ideal mean 3.
+/// NEES of a pose, in (x, y, θ) with the heading's error wrapped: ideal mean 3.
 double nees(const geometry::UncertainPose2& estimate, const geometry::Pose2& truth);
 
 }  // namespace sightline::logs

@@ -9,7 +9,7 @@
 
 namespace sightline::logs {
 
-/// In the order of the stamps.
+/// Poses in the order of their stamps.
 using Trajectory = std::vector<geometry::StampedPose2>;
 
 /// Reads a trajectory in the TUM format, `t x y z qx qy qz qw` a line (of which height and tilt are
@@ -24,7 +24,7 @@ class TrajectoryWriter {
   explicit TrajectoryWriter(const std::string& path);
 
   void add(std::int64_t stamp, const geometry::Pose2& pose);
-  /// To be called at the end: throws config::Error if not all could be written.
+  /// Ends the file; call it at the end. Throws config::Error if not all could be written.
   void close();
 
  private:
@@ -32,7 +32,7 @@ class TrajectoryWriter {
   std::ofstream file_;
 };
 
-/// Where something had moved between two times, known from elsewhere.
+/// Motion of something between two times, known from elsewhere.
 struct Relation {
   std::int64_t first = 0;   ///< [ns]
   std::int64_t second = 0;  ///< [ns]

@@ -8,7 +8,7 @@
 #include "sightline/geometry/pose2.h"
 #include "sightline/logs/trajectory.h"
 
-/// How far a trajectory is from what is known to be true.
+/// Errors of a trajectory against what is known to be true.
 namespace sightline::logs {
 
 struct Statistics {

@@ -12,7 +12,7 @@
 /// 4.3.4).
 namespace sightline::motion {
 
-/// How a scanner that a person carries may lean, and how far it is from floor and ceiling.
+/// Inclination of a scanner that a person carries, and its distance from floor and ceiling.
 struct FloorConfig {
   double height = 1.2;                         ///< of the scanner above the floor [m]
   double headroom = 1.2;                       ///< from the scanner to the ceiling, at least [m]
@@ -29,9 +29,9 @@ struct SweepAttitude {
   geometry::Attitude last;
 };
 
-/// Which beams ended on floor or ceiling by a measured attitude: those that came as far as these
-/// are in their direction, `height / (sin α cos β)` at a pitch of α and a bearing of β, or farther;
-/// or less by two standard deviations of the tilt.
+/// Finds the beams that ended on floor or ceiling by a measured attitude: those that came as far as
+/// these are in their direction, `height / (sin α cos β)` at a pitch of α and a bearing of β, or
+/// farther; or less by two standard deviations of the tilt.
 std::vector<bool> beamsOnFloor(const FloorConfig& config, const scan::Scan& scan,
                                const SweepAttitude& attitude);
 

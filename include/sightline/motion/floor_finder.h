@@ -24,8 +24,8 @@ class FloorFinder {
   /// Throws config::Error if the configuration is out of range.
   explicit FloorFinder(const FloorConfig& config);
 
-  /// Which beams of a scan made at this pose of the sensor ended on floor or ceiling. The pose has
-  /// to be good to some centimetres and a degree against those of the scans remembered.
+  /// Finds the beams of a scan made at this pose of the sensor that ended on floor or ceiling. The
+  /// pose has to be good to some centimetres and a degree against those of the scans remembered.
   std::vector<bool> find(const scan::Scan& scan, const geometry::Pose2& T_odom_sensor) const;
   /// Keeps a scan, whole, to look back to.
   void remember(const scan::Scan& scan, const geometry::Pose2& T_odom_sensor);

@@ -7,7 +7,7 @@
 
 namespace sightline::motion {
 
-/// What the servo of the sensor head shall do until the next command.
+/// Command to the servo of the sensor head; it holds until the next one.
 struct HeadCommand {
   enum class Mode { kPosition, kRate, kStop };
   Mode mode = Mode::kStop;
@@ -16,7 +16,7 @@ struct HeadCommand {
                           ///< fast as the servo can
 };
 
-/// What the servo can do (pears table 1): 90 degrees in 0.5 s.
+/// Limits of the servo (pears table 1): 90 degrees in 0.5 s.
 struct HeadLimits {
   double lower = geometry::radians(-90.0);      ///< of the joint [rad]
   double upper = geometry::radians(90.0);       ///< [rad]
@@ -30,7 +30,7 @@ struct HeadLimits {
 
   /// The nearest position that the servo can be sent to [rad]: a step within the limits.
   double rounded(double position) const;
-  /// Why the command cannot be followed: not finite, beyond the limits; empty where it can.
+  /// Reason why the command cannot be followed: not finite, beyond the limits; empty where it can.
   std::string fault(const HeadCommand& command) const;
 };
 

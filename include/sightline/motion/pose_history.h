@@ -22,7 +22,7 @@ class PoseHistory {
   std::int64_t oldest() const { return poses_.front().stamp; }
   std::int64_t newest() const { return poses_.back().stamp; }
 
-  /// Nothing outside [oldest, newest].
+  /// Pose at a time; nothing outside [oldest, newest].
   std::optional<geometry::Pose2> at(std::int64_t stamp) const;
 
  private:

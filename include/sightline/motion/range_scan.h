@@ -10,7 +10,7 @@
 
 namespace sightline::motion {
 
-/// How a head turned during a sweep.
+/// Rotation of a head during a sweep.
 struct HeadSweep {
   std::vector<double> angles;  ///< of the head's joint [rad], one a beam
   std::string mount_frame;     ///< in which the head turns, its axes there at an angle of 0
@@ -22,7 +22,7 @@ struct HeadSweep {
 
 /// A scan whose sensor turned with its head.
 struct RangeScan {
-  /// In the projection frame at the first beam; the sensor's motion is that of the head alone.
+  /// Scan in the projection frame at the first beam; the sensor's motion is that of the head alone.
   scan::Scan scan;
   HeadSweep head;
 };

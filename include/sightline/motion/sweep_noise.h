@@ -13,9 +13,9 @@ namespace sightline::motion {
 /// to that frame's twists, where a change of frame is the adjoint.
 Eigen::Matrix3d coordinatesByStartTwist(const geometry::Pose2& motion);
 
-/// What odometry leaves unknown of a sensor's motion during a sweep in which its carrier moved, and
-/// the sensor stood still on it: a walk, since the errors of odometry are random walks. The scale's
-/// error is not in it: whoever estimates a pose has that as a state.
+/// Noise of odometry in a sensor's motion during a sweep in which its carrier moved, and the sensor
+/// stood still on it: a walk, since the errors of odometry are random walks. The error of the scale
+/// is left out: an estimator of poses has it as a state.
 ///
 /// @param noise             of the carrier's odometry
 /// @param T_start_end_base  carrier's motion from the first beam to the last, as reported

@@ -15,7 +15,7 @@
 
 namespace sightline::pipeline {
 
-/// Which estimators are to run.
+/// Estimators that are to run.
 struct EstimatorSet {
   bool lines = false;
   bool rooms = false;
@@ -28,9 +28,9 @@ struct Lines {
   std::vector<geometry::Arc> arcs;
 };
 
-/// What the estimators found of one scan; nothing of those that do not run, or refused it. Odometry
-/// comes from the first scanner alone, and not from a frame of unknown mounting once its mounting
-/// has been known.
+/// Results of the estimators for one scan; nothing of those that do not run, or refused it.
+/// Odometry comes from the first scanner alone, and not from a frame of unknown mounting once its
+/// mounting has been known.
 struct Estimates {
   LocatedScan located;  ///< as the estimators saw it: without floor, motion filled in
   std::optional<Lines> lines;
@@ -49,7 +49,7 @@ class Estimators {
   /// Takes scans in the order of the feed.
   Estimates take(LocatedScan located);
 
-  /// For commands and settings from outside; null where that estimator does not run.
+  /// Access for commands and settings from outside; null where that estimator does not run.
   tracking::RoomTracker* rooms() { return rooms_ ? &*rooms_ : nullptr; }
   ScanOdometry* odometry() { return set_.odometry ? &*odometry_ : nullptr; }
   /// Throws config::Error.

@@ -42,7 +42,7 @@ struct RoomsConfig {
   geometry::UncertainPose2 start() const;
 };
 
-/// Where the scans come from and how they are completed: what all estimators share.
+/// Topics of the scans and the way they are completed: settings that all estimators share.
 struct InputConfig {
   std::vector<std::string> scans;        ///< topics of sensor_msgs/LaserScan
   std::vector<std::string> range_scans;  ///< topics of sightline/RangeScan
@@ -58,25 +58,23 @@ struct InputConfig {
   std::vector<std::string> laserTopics() const;
 };
 
-/// What the estimators are to be set to, live and over a recording.
+/// Settings of all estimators, live and over a recording, and the file that holds them.
 ///
 /// ```yaml
-/// scans: [scan]                                # topics
-/// range_scans: [range_scan]                    # topics, of sensors that tell their variances and
-///                                              # how their head turned
+/// scans: [scan]                          # topics of sensor_msgs/LaserScan
+/// range_scans: [range_scan]              # topics of sightline/RangeScan
+/// noise: {sigma: 0.01}                   # these and more: InputConfig, FeedConfig
 /// frames: {map: map, odom: odom, base: base_link}
-/// mountings: {laser: [0.2, 0.0, 0.0]}          # x, y, yaw of a scanner's frame on the base,
-///                                              # m, m, rad, where the recording does not tell
-/// noise: {sigma: 0.01}                         # as scan::NoiseModel; further keys of FeedConfig
-/// and leans: false                                 # InputConfig stand beside it lines:
-/// {min_length: 0.5}                     # as LinesConfig rooms: # where the room tracker is wanted
-///   map: rooms.yaml                            # relative to this file
-///   initial_pose: [0.0, 0.0, 0.0]              # m, m, rad
-///   tracker: {neighbours: true}                # as tracking::TrackerConfig
-/// carrier: ../carriers/body_worn.yaml          # where odometry from scans is wanted, by this
-/// odometry: {max_gap: 1.0}                     # or by this, as ScanOdometryConfig; what stands
-/// here
-///                                              # goes before what the carrier's file says
+/// mountings: {laser: [0.2, 0.0, 0.0]}    # x, y, yaw on the base [m, m, rad], by frame, where
+///                                        # no transform tells
+/// lines: {min_length: 0.5}               # LinesConfig
+/// rooms:                                 # RoomsConfig; left out: no room tracker
+///   map: rooms.yaml                      # relative to this file
+///   initial_pose: [0.0, 0.0, 0.0]        # m, m, rad
+///   tracker: {neighbours: true}
+/// carrier: ../carriers/body_worn.yaml    # settings of leans, floor and odometry
+/// odometry: {max_gap: 1.0}               # ScanOdometryConfig; goes before the carrier's file.
+///                                        # Without either: no odometry from scans
 /// ```
 struct EstimatorsConfig {
   InputConfig input;

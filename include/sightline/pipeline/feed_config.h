@@ -20,7 +20,7 @@ struct Frames {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// Where the odometry of the wheels comes from.
+/// Source of the odometry of the wheels.
 enum class OdometrySource {
   kAutomatic,   ///< transforms where they know odom, otherwise the topic
   kTransforms,  ///< odom to base on tf
@@ -28,10 +28,10 @@ enum class OdometrySource {
   kNone,
 };
 
-/// How scans are completed: what is known of the scanners, and how long to wait for what belongs to
-/// a scan. One set of defaults, live and over a recording.
+/// Settings for completing scans: what is known of the scanners, and how long to wait for what
+/// belongs to a scan. One set of defaults, live and over a recording.
 struct FeedConfig {
-  /// Of scans that do not bring their variances along.
+  /// Noise of scans that do not bring their variances along.
   scan::NoiseModel noise{scan::NoiseKind::kEstimated};
   OdometrySource odometry_source = OdometrySource::kAutomatic;
   bool use_imu = true;
@@ -43,7 +43,7 @@ struct FeedConfig {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// What scans are to be completed by. Where both are left out, no scan waits for anything.
+/// Data that scans are to be completed by. Where both are left out, no scan waits for anything.
 struct FeedNeeds {
   bool mounting = true;  ///< T_base_sensor
   bool odometry = true;  ///< T_odom_base and the motion within the sweep

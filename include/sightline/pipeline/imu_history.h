@@ -8,7 +8,7 @@
 
 namespace sightline::pipeline {
 
-/// What an inertial sensor says of the base at a time.
+/// Reading of an inertial sensor, for the base at one time.
 struct ImuReading {
   std::int64_t stamp = 0;                      ///< [ns]
   double turn_rate = 0.0;                      ///< of the heading [rad/s]
@@ -23,9 +23,9 @@ class ImuHistory {
   void add(const ImuReading& reading);
   std::optional<std::int64_t> newest() const;
 
-  /// How far the base turned from one time to the other [rad]; nothing outside the history.
+  /// Rotation of the base from one time to the other [rad]; nothing outside the history.
   std::optional<double> turn(std::int64_t from, std::int64_t to) const;
-  /// Nothing outside the history, or where the sensor does not know it.
+  /// Attitude at a time; nothing outside the history, or where the sensor does not know it.
   std::optional<geometry::Attitude> attitude(std::int64_t stamp) const;
 
  private:

@@ -11,15 +11,15 @@
 
 namespace sightline::pipeline {
 
-/// A scan with all that is known of how it was taken. What is missing is not known.
+/// A scan with all that is known of how it was taken; a member that is absent is not known.
 struct LocatedScan {
   std::size_t scanner = 0;  ///< in the order in which scanners were added
-  /// As a level sensor the right way up sees it, with the sensor's motion within the sweep where
-  /// that is known.
+  /// The scan as a level sensor the right way up sees it, with the sensor's motion within the sweep
+  /// where that is known.
   scan::Scan scan;
   bool upside_down = false;   ///< whether the sensor hangs so, and the scan was mirrored
   bool motion_known = false;  ///< within the sweep
-  /// At the stamp: of a turning sensor, that of the first beam.
+  /// Mounting at the stamp, which is the first beam of a turning sensor.
   std::optional<geometry::Pose2> T_base_sensor;
   std::optional<geometry::Pose2> T_odom_base;  ///< by wheels, at the stamp
   std::string

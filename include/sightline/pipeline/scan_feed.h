@@ -12,7 +12,7 @@
 
 namespace sightline::pipeline {
 
-/// What became of one scan.
+/// Outcome for one scan.
 struct FeedResult {
   std::size_t scanner = 0;
   std::int64_t stamp = 0;              ///< [ns]
@@ -20,7 +20,7 @@ struct FeedResult {
   std::string reason;                  ///< why it was dropped
 };
 
-/// What became of the scans of one scanner.
+/// Counts of the scans of one scanner, by outcome.
 struct FeedCounts {
   std::size_t arrived = 0;
   std::size_t located = 0;

@@ -27,7 +27,7 @@ struct ArrivedScan {
   const std::string& carriedFrame() const { return head ? head->mount_frame : scan.frame; }
 };
 
-/// How much longer a scan may wait.
+/// Time that a scan may still wait.
 struct Patience {
   bool usual = false;  ///< for what has been coming
   bool start = false;  ///< for what has not come yet
@@ -36,7 +36,7 @@ struct Patience {
 /// Completes one scan from transforms, odometry and an inertial sensor (see LocatedScan).
 class ScanLocator {
  public:
-  /// What became of a scan: located, to be asked for again later, or dropped for a reason.
+  /// Outcome for a scan: located, to be asked for again later, or dropped for a reason.
   struct Outcome {
     std::optional<LocatedScan> located;
     std::string reason;  ///< of a scan that is dropped

@@ -14,8 +14,8 @@
 
 namespace sightline::pipeline {
 
-/// How far wheels are believed that nobody has measured. The two sigmas come on top, once a scan:
-/// what wheels report of a moment is late or rounded.
+/// Noise of wheels that nobody has measured. The two sigmas come on top, once a scan: what wheels
+/// report of a moment is late or rounded.
 struct WheelsConfig {
   motion::OdometryNoise noise = unmeasured();
   double position_sigma = 0.02;  ///< [m]
@@ -56,8 +56,8 @@ class ScanOdometry {
   /// The clock was set back: forgets the stamp of the last scan but keeps the pose.
   void restartClock();
 
-  /// Which beams of the last scan were found to be on floor or ceiling; empty where none were
-  /// looked for.
+  /// Beams of the last scan that were found to be on floor or ceiling; empty where none were looked
+  /// for.
   const std::vector<bool>& beamsOnFloor() const { return on_floor_; }
 
  private:

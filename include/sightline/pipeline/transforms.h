@@ -8,7 +8,7 @@
 
 namespace sightline::pipeline {
 
-/// Where frames are in each other over time: tf on a robot, the transforms of a bag, a pose history
+/// Poses of frames in each other over time: tf on a robot, the transforms of a bag, a pose history
 /// in tests. They may grow between two questions, as another thread fills them.
 class Transforms {
  public:

@@ -43,7 +43,7 @@ struct Figure {
   std::vector<Panel> panels;
 };
 
-/// What gnuplot is told, data included.
+/// Script for gnuplot, data included.
 std::string gnuplotScript(const Figure& figure, const std::string& png_path);
 
 /// Draws with gnuplot. Throws Error where that is missing or fails.

@@ -4,9 +4,9 @@
 
 namespace sightline::scan {
 
-/// What is not known of the sensor's motion from the first beam of a sweep to the others (pears
-/// eqs 14, 21, 23 and 24, for any planar motion). All zero where it is known exactly or the sensor
-/// stood still.
+/// Noise of the sensor's motion from the first beam of a sweep to the others (pears eqs 14, 21, 23
+/// and 24, for any planar motion). All zero where the motion is known exactly or the sensor stood
+/// still.
 ///
 /// Covariances are of the coordinates (x, y, θ) [m², m rad, rad²] of the sensor's frame at the last
 /// beam in its frame at the stamp.

@@ -16,7 +16,7 @@ enum class NoiseKind {
   kEstimated,     ///< what each scan shows (estimated_noise.h), for a scanner that nobody knows
 };
 
-/// How well a beam measures.
+/// Accuracy of a beam.
 struct NoiseModel {
   NoiseKind kind = NoiseKind::kConstant;
   double sigma = 0.01;              ///< [m]; the least of kEstimated

@@ -14,7 +14,7 @@
 
 namespace sightline::scan {
 
-/// What a beam came back with (REP-117).
+/// Kind of answer that a beam came back with (REP-117).
 enum class ReturnKind : std::uint8_t {
   kValid,    ///< a range within the limits
   kTooNear,  ///< −Inf, or below range_min: something is there, too close to measure
@@ -25,8 +25,8 @@ enum class ReturnKind : std::uint8_t {
 /// Sorts a range into its kind by the limits of the geometry (`min <= r && r <= max` is valid).
 ReturnKind classify(double range, const ScanGeometry& geometry);
 
-/// One sweep of a planar range sensor: the type that everything which measures makes, and
-/// everything which estimates eats. Each vector holds one entry a beam, always.
+/// One sweep of a planar range sensor: made by all that measures, taken by all
+/// that estimates. Each vector holds one entry a beam, always.
 class Scan {
  public:
   std::int64_t stamp = 0;  ///< of the first beam [ns]
@@ -69,7 +69,7 @@ class Scan {
   bool isValid(std::size_t beam) const { return kinds_[beam] == ReturnKind::kValid; }
   /// Direction of a beam in the sensor's frame at the stamp.
   Eigen::Vector2d direction(std::size_t beam) const;
-  /// Where a valid beam ended, in the sensor's frame at the stamp [m].
+  /// End of a valid beam, in the sensor's frame at the stamp [m].
   Eigen::Vector2d point(std::size_t beam) const;
   /// Covariance of point(beam) [m²], first order in the angle; the motion's noise is not in it.
   Eigen::Matrix2d covariance(std::size_t beam) const;

@@ -12,7 +12,7 @@ class InvalidScan : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What all scans of a sensor share: where its beams point and when, and what it can see.
+/// Properties that all scans of a sensor share: directions and times of its beams, and its range.
 /// Immutable, shared between scans, so that the trigonometry is done once.
 ///
 /// Angles in radians from the sensor's x axis, counter-clockwise, strictly monotonic in either
@@ -30,7 +30,7 @@ class ScanGeometry {
                                                      std::size_t beams, double time_increment,
                                                      double range_min, double range_max);
 
-  /// That of the same sensor upside down: every angle negated.
+  /// Geometry of the same sensor upside down: every angle negated.
   std::shared_ptr<const ScanGeometry> mirrored() const;
 
   std::size_t beams() const { return angles_.size(); }

@@ -36,13 +36,13 @@ class ActiveSensor {
   /// the time of their first sample.
   std::vector<triangulation::RawScan> advance(const world::World& world, std::int64_t time,
                                               const MountPoseAt& T_map_mount);
-  /// In a world in which things move.
+  /// The same in a world in which things move.
   std::vector<triangulation::RawScan> advance(const WorldAt& world_at, std::int64_t time,
                                               const MountPoseAt& T_map_mount);
 
   const motion::SensorHead& head() const { return head_; }
   const ActiveSensorProfile& profile() const { return profile_; }
-  /// Of the next sample [ns].
+  /// Time of the next sample [ns].
   std::int64_t nextSample() const { return timeOf(samples_); }
 
  private:

@@ -12,7 +12,7 @@
 
 namespace sightline::simulation {
 
-/// What the device of such a sensor says of itself.
+/// Identity of the device of such a sensor.
 FirmwareConfig firmwareOf(const ActiveSensorProfile& profile);
 
 /// A simulated sensor that stands still in a world, for an emulated device.

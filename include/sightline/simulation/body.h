@@ -4,8 +4,8 @@
 
 namespace sightline::simulation {
 
-/// What scanners see of something that moves: an upright cylinder about its middle, a plane piece
-/// through its middle, across its heading, or both.
+/// Shape of something that moves, as scanners see it: an upright cylinder about its middle, a plane
+/// piece through its middle, across its heading, or both.
 struct Body {
   double radius = 0.25;       ///< of the cylinder [m]; 0: none
   double width = 0.0;         ///< of the plane piece [m]; 0: none

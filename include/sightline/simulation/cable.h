@@ -7,7 +7,7 @@
 
 namespace sightline::simulation {
 
-/// What a cable and its adapters do to what goes over them.
+/// Faults of a cable and its adapters.
 struct CableFaults {
   double corrupted = 0.0;  ///< share of the bytes that arrive as others
   double dropped = 0.0;    ///< share of the bytes that do not arrive
@@ -23,7 +23,7 @@ class Cable {
   void setFaults(const CableFaults& faults) { faults_ = faults; }
   /// Whether the bytes came through as they were.
   bool pass(std::vector<std::uint8_t>& bytes);
-  /// Of the next frame [ns].
+  /// Delay of the next frame [ns].
   std::int64_t delay();
 
  private:

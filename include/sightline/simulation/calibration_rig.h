@@ -27,8 +27,8 @@ struct RigConfig {
   void check(const std::string& source) const;
 };
 
-/// What a sensor with these parameters records in the rig. Noise of the image position is that of
-/// pears eq. 2, that of the total current I_n, both of the mean over the readings. Targets whose
+/// Records what a sensor with these parameters sees in the rig. Noise of the image position is that
+/// of pears eq. 2, that of the total current I_n, both of the mean over the readings. Targets whose
 /// spot is not wholly on the detector are left out. Throws config::Error.
 triangulation::CalibrationRecording recordCalibration(const triangulation::SensorParameters& sensor,
                                                       const Optics& optics, const RigConfig& rig,

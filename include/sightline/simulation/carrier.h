@@ -31,42 +31,42 @@ class Carrier {
                   double turret_rate = 0.0);
   /// Samples begin at time 0, its head standing straight ahead. Throws config::Error.
   void addActiveSensor(const ActiveSensorProfile& profile, const Mounting& mounting);
-  /// From now on a person carries the sensors: what the robot does is where that person goes, and
-  /// the gait comes on top. Throws config::Error if the configuration is out of range.
+  /// Makes a person carry the sensors from now on: the person goes where the robot would, and the
+  /// gait comes on top. Throws config::Error if the configuration is out of range.
   void walk(const GaitConfig& gait);
-  /// From now on the path drives, and commands are not heard.
+  /// Follows a path from now on; commands are not heard.
   void follow(const Path& path);
-  /// What the robot shall do until the next command, or until the time-out.
+  /// Commands the robot until the next command, or until the time-out.
   void command(const Velocity& velocity);
-  /// What the head of an active sensor shall do; one that its limits do not allow is not heard.
+  /// Commands the head of an active sensor; a command that its limits do not allow is not heard.
   void commandHead(std::size_t sensor, const motion::HeadCommand& command);
-  /// How often the odometry reports, 50 times a second by default.
+  /// Sets how often the odometry reports, 50 times a second by default.
   void setOdometryRate(double rate) { odometry_rate_ = rate; }
 
   /// Moves on by kStep.
   void move();
   /// Takes what the sensors measured up to now, in a world as this carrier sees it.
   void measure(const WorldAt& world_at, std::size_t index, Outputs& outputs);
-  /// What the wheels report now; their next mean velocity begins here.
+  /// Report of the wheels now; their next mean velocity begins here.
   ReportedState report(std::size_t index);
 
   std::int64_t time() const { return time_; }
   const Robot& robot() const { return robot_; }
-  /// As it was at the last sample, less than a sample ago.
+  /// Head as it was at the last sample, less than a sample ago.
   const motion::SensorHead& head(std::size_t sensor) const {
     return active_sensors_[sensor].sensor.head();
   }
   const triangulation::Calibration& calibration(std::size_t sensor) const {
     return active_sensors_[sensor].ranger.calibration();
   }
-  /// Where a scanner sits at a time [ns], on its turret if it has one.
+  /// Pose of a scanner at a time [ns], on its turret if it has one.
   Eigen::Isometry3d T_base_sensor(std::size_t scanner, std::int64_t time) const {
     return scanners_[scanner].scanner.T_base_sensor(time);
   }
-  /// Where the carrier is in the plane, gait and all; [0, time()] but no more than the last ten
+  /// Pose of the carrier in the plane, gait and all; [0, time()] but no more than the last ten
   /// seconds.
   geometry::Pose2 T_map_base(std::int64_t time) const;
-  /// How the trunk of a person moves at such a time; nothing moves on a robot.
+  /// Motion of a person's trunk at such a time; nothing moves on a robot.
   BodyMotion bodyMotion(std::int64_t time) const;
 
  private:
@@ -101,7 +101,7 @@ class Carrier {
   std::int64_t reports_ = 0;
   std::int64_t last_report_ = 0;  // [ns]
   std::int64_t time_ = 0;
-  motion::PoseHistory way_;  // T_map_base without the gait
+  motion::PoseHistory path_;  // T_map_base without the gait
   GaitConfig gait_config_;
   std::optional<Gait> gait_;
   std::deque<BodyMotion> body_motions_;  // one a step; the last one is that of now

@@ -8,7 +8,7 @@
 
 namespace sightline::simulation {
 
-/// What a device measures, and how its head turns: to be given to an emulated device.
+/// Measurements of a device and the rotation of its head: to be given to an emulated device.
 class DeviceModel {
  public:
   virtual ~DeviceModel() = default;

@@ -45,16 +45,16 @@ class EmulatedDevice {
   ///
   /// Neither listens nor speaks for a while; then goes on with what it was sending.
   void stall(double seconds);
-  /// As a stall, but everything is forgotten; starts anew once no stall lasts either.
+  /// A stall in which everything is forgotten; starts anew once no stall lasts either.
   void reboot(double seconds);
   /// The port is gone; the device goes on.
   void disconnect(double seconds);
 
-  /// When the last stall, reboot or disconnection was over, as of std::chrono::steady_clock [ns];
-  /// 0 while one lasts or before the first one.
+  /// Time at which the last stall, reboot or disconnection was over, as of
+  /// std::chrono::steady_clock [ns]; 0 while one lasts or before the first one.
   std::int64_t backSince() const { return back_since_; }
-  /// Why the port is not back although its time has come, which is tried again and again; empty
-  /// where all is well.
+  /// Reason why the port is not back although its time has come, which is tried again and again;
+  /// empty where all is well.
   std::string trouble() const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace sightline::simulation {
 
-/// What an emulated device says of itself.
+/// Identity of an emulated device.
 struct FirmwareConfig {
   driver::Identity identity{driver::kModel, "SS-0001", 1, 0, 256, 0};  ///< but for the boot
   std::uint8_t version = driver::kProtocolVersion;
@@ -54,7 +54,7 @@ class EmulatedFirmware {
   void sleep(std::int64_t time) {
     number_ += static_cast<std::uint32_t>(model_.advance(time).size());
   }
-  /// What is to be sent since the last call.
+  /// Frames to be sent since the last call.
   std::vector<SentFrame> take();
 
  private:

@@ -12,8 +12,8 @@
 
 namespace sightline::simulation {
 
-/// How the trunk of a walking person moves about the way that the person goes. The amplitudes are
-/// the largest, at walking speed; a person who stands still keeps still.
+/// Motion of the trunk of a walking person about the person's path. The amplitudes are the largest,
+/// at walking speed; a person who stands still keeps still.
 struct GaitConfig {
   double height = 1.2;                    ///< of the point that the trunk turns about [m]
   double speed = 1.3;                     ///< of a person who walks [m/s]
@@ -29,20 +29,20 @@ struct GaitConfig {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// Where the trunk is beside the upright, level pose that the person's way would give it.
+/// Displacement of the trunk from the upright, level pose on the person's path.
 struct BodyMotion {
   double sway = 0.0;  ///< to the left [m]
   double bob = 0.0;   ///< upwards [m]
   double yaw = 0.0;   ///< [rad]
   geometry::Attitude attitude;
 
-  /// The part that lies in the plane, to be put after the pose of the way.
+  /// The part that lies in the plane, to be put after the pose on the path.
   geometry::Pose2 inPlane() const { return {0.0, sway, yaw}; }
   /// The rest, in the frame that this leaves, about a point `height` [m] above the floor.
   Eigen::Isometry3d outOfPlane(double height) const;
 };
 
-/// On the straight line from a (ratio 0) to b (ratio 1).
+/// Motion on the straight line from a (ratio 0) to b (ratio 1).
 BodyMotion interpolate(const BodyMotion& a, const BodyMotion& b, double ratio);
 
 /// The trunk of a person who walks at changing speed.
@@ -55,20 +55,20 @@ class Gait {
   BodyMotion motion() const;
 
  private:
-  // Shares of the full amplitudes.
-  struct Vigour {
+  // Ratios of the amplitudes of a stride to the full ones.
+  struct StrideRatios {
     double pitch = 0.0;
     double roll = 0.0;
     double yaw = 0.0;
   };
-  Vigour drawVigour();
+  StrideRatios drawStride();
 
   GaitConfig config_;
   RandomStream random_;
-  double phase_ = 0.0;  // of the stride, two steps long, in [0, 2π)
-  double pace_ = 0.0;   // speed as a share of that of walking, smoothed
-  Vigour vigour_;       // at the start of the stride
-  Vigour next_vigour_;  // at its end
+  double phase_ = 0.0;        // of the stride, two steps long, in [0, 2π)
+  double pace_ = 0.0;         // speed as a share of that of walking, smoothed
+  StrideRatios stride_;       // at the start of the stride
+  StrideRatios next_stride_;  // at its end
 };
 
 }  // namespace sightline::simulation

@@ -7,8 +7,8 @@
 
 namespace sightline::simulation {
 
-/// Where a sensor sits on its robot; angles as roll, pitch and yaw about the robot's fixed axes,
-/// so that a roll of π mounts it upside down.
+/// Pose of a sensor on its robot; angles as roll, pitch and yaw about the robot's fixed axes, so
+/// that a roll of π mounts it upside down.
 struct Mounting {
   double x = 0.0;      ///< [m], forward
   double y = 0.0;      ///< [m], left

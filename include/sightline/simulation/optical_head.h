@@ -24,13 +24,13 @@ struct Optics {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// What the laser spot brings to the detector.
+/// Image of the laser spot on the detector.
 struct SpotImage {
   double current = 0.0;         ///< [A], of all rays
   double image_position = 0.0;  ///< [m], weighted by their currents; 0 where there is no light
 };
 
-/// The light's way from the laser to the detector (pears section 3.3), without noise.
+/// Path of the light from the laser to the detector (pears section 3.3), without noise.
 class OpticalHead {
  public:
   /// Throws config::Error.
@@ -52,7 +52,7 @@ class OpticalHead {
     double share;   // of the laser's power
   };
   static std::vector<BeamRay> raysOf(const Optics& optics);
-  // Where a ray of the beam ended.
+  // End of a ray of the beam.
   struct Spot {
     world::Hit hit;
     Eigen::Vector3d source_map;  // where the ray left

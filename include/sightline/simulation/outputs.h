@@ -27,7 +27,7 @@ struct FinishedRangeScan {
   motion::RangeScan range_scan;
 };
 
-/// What the head of an active sensor reports, as of its last sample.
+/// Report of the head of an active sensor, as of its last sample.
 struct ReportedHead {
   std::size_t robot = 0;
   std::size_t sensor = 0;
@@ -36,7 +36,7 @@ struct ReportedHead {
   double rate = 0.0;       ///< [rad/s]
 };
 
-/// What the wheels report, and what is true.
+/// Report of the wheels, and the truth.
 struct ReportedState {
   std::size_t robot = 0;
   std::int64_t stamp = 0;           ///< [ns]
@@ -46,7 +46,7 @@ struct ReportedState {
   Velocity velocity;                ///< true velocity
 };
 
-/// What a perfect inertial sensor reads that sits straight on the base.
+/// Reading of a perfect inertial sensor that sits straight on the base.
 struct ReportedMotion {
   std::size_t robot = 0;
   std::int64_t stamp = 0;       ///< [ns]

@@ -33,7 +33,7 @@ struct Path {
   Path() = default;
   /// Throws config::Error with file, line and key.
   explicit Path(const config::Node& document);
-  /// Without the waypoints, which have no default.
+  /// Visits all but the waypoints, which have no default.
   void visit(config::FieldVisitor& visitor);
   static Path readFile(const std::string& path) { return Path(config::Node::readFile(path)); }
 };

@@ -24,7 +24,7 @@ class Scanner {
  public:
   /// The carrier's pose at a time [ns].
   using PoseAt = std::function<geometry::Pose2(std::int64_t)>;
-  /// That of a carrier which leans and bobs; its origin at the floor while it stands upright.
+  /// Pose of a carrier which leans and bobs; its origin at the floor while it stands upright.
   using PoseInSpaceAt = std::function<Eigen::Isometry3d(std::int64_t)>;
 
   /// `turret_rate` [rad/s], counter-clockwise about the z axis of the mounting, which is where the
@@ -41,7 +41,7 @@ class Scanner {
   scan::Scan sweep(const world::World& world, std::int64_t stamp, const PoseAt& T_map_base);
   scan::Scan sweepInSpace(const world::World& world, std::int64_t stamp,
                           const PoseInSpaceAt& T_map_base);
-  /// In a world in which things move.
+  /// The same in a world in which things move.
   scan::Scan sweepInSpace(const WorldAt& world_at, std::int64_t stamp,
                           const PoseInSpaceAt& T_map_base);
 

@@ -32,7 +32,7 @@ struct ScannerProfile {
   /// Throws config::Error naming `source` where a value is out of range or two do not fit.
   void check(const std::string& source) const;
   std::shared_ptr<const scan::ScanGeometry> geometry() const;
-  /// From the first beam to the last [s].
+  /// Time from the first beam to the last [s].
   double sweepDuration() const;
 };
 

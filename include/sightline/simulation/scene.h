@@ -29,8 +29,8 @@ class Scene {
 
   /// Returns the index of the body. Throws config::Error.
   std::size_t add(const Body& body, BodyPoseAt T_map_body);
-  /// The world at a time [ns] as the body `observer` sees it, which does not see itself. What is
-  /// returned holds until the next call.
+  /// The world at a time [ns] as the body `observer` sees it, which does not see itself. The
+  /// result holds until the next call.
   const world::World& at(std::int64_t time, std::size_t observer);
 
  private:

@@ -23,7 +23,7 @@ class Simulation {
   static constexpr std::int64_t kStep = Carrier::kStep;  ///< [ns]
 
   Simulation(world::World world, std::uint64_t seed) : scene_(std::move(world)), seed_(seed) {}
-  /// With a first robot.
+  /// Simulates a world with a first robot.
   Simulation(world::World world, const RobotConfig& config, const geometry::Pose2& T_map_base,
              std::uint64_t seed);
 
@@ -47,7 +47,7 @@ class Simulation {
  private:
   Scene scene_;
   std::uint64_t seed_;
-  // At fixed places, as the scene asks them where they are.
+  // Kept at fixed places, as the scene asks them where they are.
   std::vector<std::unique_ptr<Carrier>> carriers_;
   std::vector<std::unique_ptr<Mover>> movers_;
   std::vector<std::size_t> bodies_;  // of each robot, in the scene

@@ -10,9 +10,9 @@
 
 namespace sightline::simulation {
 
-/// What the wheels report of a robot's motion, erring as motion::OdometryNoise says: every step
-/// fulfils `true = expectedStep(measured, scale) + e` with e drawn from stepCovariance, and one
-/// scale is drawn for the whole run.
+/// Odometry that the wheels report of a robot's motion, with the errors of motion::OdometryNoise:
+/// every step fulfils `true = expectedStep(measured, scale) + e` with e drawn from stepCovariance,
+/// and one scale is drawn for the whole run.
 class WheelOdometry {
  public:
   WheelOdometry(const motion::OdometryNoise& noise, std::uint64_t seed);

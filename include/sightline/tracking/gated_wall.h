@@ -41,7 +41,7 @@ std::vector<const BeamPoint*> nearLine(const std::vector<const BeamPoint*>& poin
 /// The points as a line is fitted to them.
 std::vector<fitting::NoisyPoint> toFitPoints(const std::vector<const BeamPoint*>& points);
 
-/// Why these points on a line do not make a wall; kNone where they do.
+/// Reason why these points on a line do not make a wall; kNone where they do.
 WallRefusal refusalOf(const WallConfig& config, const std::vector<const BeamPoint*>& points,
                       const geometry::PolarLine& line);
 

@@ -23,7 +23,7 @@ class PlainTracker {
   PlainTracker(const TrackingContext& context, const geometry::UncertainPose2& start,
                std::size_t room);
 
-  /// Nothing for a scan older than the last one used.
+  /// Takes one scan. Returns nothing for a scan older than the last one used.
   std::optional<TrackerUpdate> update(const TrackingContext& context, const TrackerInput& input);
   /// Adds to the standard deviations (jensfelt section 5.2: by hand) [m, rad].
   void inflate(double position_sigma, double heading_sigma);

@@ -21,7 +21,7 @@ class PoseFilter {
   void predict(const motion::OdometryNoise& odometry, const geometry::Pose2& step);
   /// Begins a scan: `motion_covariance` is of the base frame's twist over its sweep, as in Sweep.
   void beginSweep(const Eigen::Matrix3d& motion_covariance);
-  /// What a measured line of the base frame says against its wall in the map, first order.
+  /// Measured line of the base frame against its wall in the map, to first order.
   struct Innovation {
     Eigen::Vector2d value;                 ///< (ρ, φ) measured less predicted, heading wrapped
     Eigen::Matrix2d covariance;            ///< S, of the value

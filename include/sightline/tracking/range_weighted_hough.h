@@ -8,7 +8,7 @@
 
 namespace sightline::tracking {
 
-/// Where the transform found a wall, against where it was predicted.
+/// Place where the transform found a wall, against the prediction.
 struct WallPeak {
   double turn = 0.0;          ///< Δφ [rad]
   double distance = 0.0;      ///< Δρ [m]

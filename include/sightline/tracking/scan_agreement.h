@@ -8,7 +8,7 @@
 
 namespace sightline::tracking {
 
-/// How the beams of a scan agree with the walls of a map, seen from a pose.
+/// Agreement of the beams of a scan with the walls of a map, seen from a pose.
 struct ScanAgreement {
   std::size_t on_wall = 0;  ///< ended where a wall is
   std::size_t beyond = 0;   ///< passed through a place where a wall is

@@ -27,7 +27,7 @@ struct HoughConfig {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// What a wall has to show before it counts.
+/// Requirements on a wall before it counts, and the accuracy of the map.
 struct WallConfig {
   int min_beams = 8;
   double min_length = 0.25;        ///< [m]

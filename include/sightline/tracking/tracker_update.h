@@ -17,7 +17,7 @@ enum class TrackerState : std::uint8_t {
   kLost = 3
 };
 
-/// What one scan did to the pose.
+/// Effect of one scan on the pose.
 struct TrackerUpdate {
   std::int64_t stamp = 0;         ///< of the scan, ns
   geometry::UncertainPose2 pose;  ///< T_map_base at the stamp

@@ -12,7 +12,7 @@
 
 namespace sightline::tracking {
 
-/// What all hypotheses of a tracker share.
+/// Data that all hypotheses of a tracker share.
 struct TrackingContext {
   TrackerConfig config;
   world::RoomMap map;
@@ -25,7 +25,7 @@ struct TrackerInput {
   geometry::Pose2 T_base_sensor;  ///< at the stamp of the scan
 };
 
-/// Where a hypothesis stands besides its pose: room, last scan, and how the last scans agreed.
+/// State of a hypothesis besides its pose: room, last scan, and the agreement of the last scans.
 class TrackMemory {
  public:
   explicit TrackMemory(std::size_t room) : room_(room) {}
@@ -55,7 +55,7 @@ class TrackMemory {
   std::size_t room_;
   std::optional<geometry::Pose2> T_odom_base_;  // at the last scan
   std::int64_t stamp_ = 0;                      // of the last scan
-  int misfits_ = 0;                             // scans in a row that did not agree
+  int lost_scans_ = 0;                          // scans in a row that did not agree
 };
 
 /// Agreement of a scan with what is seen from a pose in a room.

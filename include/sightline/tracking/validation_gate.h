@@ -9,7 +9,7 @@
 
 namespace sightline::tracking {
 
-/// Where one wall of the map is looked for in a scan, given an uncertain pose (jensfelt
+/// Region in which one wall of the map is looked for in a scan, given an uncertain pose (jensfelt
 /// section 4.2.1 and fig. 4).
 class ValidationGate {
  public:

@@ -11,15 +11,15 @@
 
 namespace sightline::tracking {
 
-/// Where a wall is looked for (jensfelt fig. 4): around the predicted wall, half as wide as
-/// `opening` at the foot of the sensor's perpendicular and widening by `angle` to both sides along
-/// it.
+/// Size of the region in which a wall is looked for (jensfelt fig. 4): around the predicted wall,
+/// half as wide as `opening` at the foot of the sensor's perpendicular and widening by `angle` to
+/// both sides along it.
 struct GateSize {
   double opening = 0.0;  ///< δ [m], half width
   double angle = 0.0;    ///< γ [rad]
 };
 
-/// Why a wall did not correct the pose.
+/// Reason why a wall did not correct the pose.
 enum class WallRefusal {
   kNone,          ///< it did
   kTooFewBeams,   ///< fewer beams in its gate, or near the line, than make a wall
@@ -36,7 +36,7 @@ struct FittedLine {
   Eigen::Matrix<double, 2, 3> motion_jacobian = Eigen::Matrix<double, 2, 3>::Zero();
 };
 
-/// What was found of one wall in one scan.
+/// Findings on one wall in one scan.
 struct WallFit {
   std::size_t room = 0;
   std::size_t wall = 0;
@@ -48,13 +48,13 @@ struct WallFit {
   std::size_t acceptedBeams() const { return fit ? fit->accepted_beams.size() : 0; }
 };
 
-/// How far a fitted line is from where the pose predicted it.
+/// Difference between a fitted line and the prediction from the pose.
 struct WallInnovation {
   Eigen::Vector2d value;  ///< (ρ, φ) measured less predicted [m, rad]
   double nis = 0.0;       ///< normalised innovation squared, 2 degrees of freedom
 };
 
-/// What one wall did to one estimate of the pose.
+/// Effect of one wall on one estimate of the pose.
 struct WallUpdate : WallFit {
   std::optional<WallInnovation> innovation;  ///< where there is a fit
 

@@ -12,8 +12,8 @@
 
 namespace sightline::triangulation {
 
-/// Where the scan sits on the head. The projection frame is parallel to the sensor frame, which
-/// turns with the head about its origin; the projected vergence is added to every scan angle.
+/// Place of the scan on the head. The projection frame is parallel to the sensor frame, which turns
+/// with the head about its origin; the projected vergence is added to every scan angle.
 struct ScanOrigin {
   double x = 0.050;                                    ///< [m], ahead of the head's axis
   double y = -0.030;                                   ///< [m], to its left
@@ -23,7 +23,7 @@ struct ScanOrigin {
   Eigen::Vector2d position() const { return {x, y}; }
 };
 
-/// What is constant in a sensor.
+/// Constants of a sensor.
 struct SensorParameters {
   std::string serial = "SS-0001";
   ScanPattern scan;

@@ -19,7 +19,7 @@ struct Stripes {
   double edgeAt(int index) const { return edge + width * index; }
 };
 
-/// What one beam saw of a target, averaged over its readings.
+/// Readings of a target by one beam, averaged.
 struct BeamAverage {
   std::size_t beam = 0;
   int readings = 1;
@@ -34,10 +34,10 @@ struct TargetPlacement {
   std::vector<BeamAverage> beams;  ///< that saw it, rising
 };
 
-/// What a calibration rig records of a sensor (pears section 3.2): plain targets for the z table,
+/// Recording of a sensor in a calibration rig (pears section 3.2): plain targets for the z table,
 /// striped ones for the x calibration.
 ///
-/// As a file it is a config::CsvTable with one row for each placement and beam:
+/// Its file is a config::CsvTable with one row for each placement and beam:
 /// `target` (plain or striped), `depth_m`, `beam` (from 0), `readings`, `image_position_m`,
 /// `current_A`; where there are striped targets also `stripe_edge_m` and `stripe_width_m`, which
 /// plain ones leave empty. Rows may come in any order.
@@ -49,7 +49,7 @@ struct CalibrationRecording {
 /// a beam it does not have, an image beyond its detector, a target behind its scan's origin.
 CalibrationRecording readRecording(const config::CsvTable& table, const SensorParameters& sensor);
 
-/// As CSV, to the last digit.
+/// Writes CSV, to the last digit.
 std::string toCsv(const CalibrationRecording& recording);
 
 }  // namespace sightline::triangulation

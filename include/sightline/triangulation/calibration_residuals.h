@@ -10,8 +10,8 @@
 
 namespace sightline::triangulation {
 
-/// What calibration estimates, in the order of its vectors: f [m], d [m], γ [rad], s [m], x and y
-/// of the scan's origin [m], projected vergence [rad].
+/// Number of parameters that calibration estimates, in the order of its vectors: f [m], d [m], γ
+/// [rad], s [m], x and y of the scan's origin [m], projected vergence [rad].
 constexpr int kParameterCount = 7;
 using ParameterVector = Eigen::Matrix<double, kParameterCount, 1>;
 struct ParameterName {
@@ -32,7 +32,7 @@ struct ImageReading {
   double sigma = 0.0;           ///< [m]
 };
 
-/// How far readings are from what parameters predict, in standard deviations.
+/// Differences between readings and what parameters predict, in standard deviations.
 ///
 /// Plain targets bear on image position, pears eq. 10. They say next to nothing of y: moving the
 /// origin along a flat target changes neither range nor angle. Striped targets say where the origin

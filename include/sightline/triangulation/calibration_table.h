@@ -36,7 +36,7 @@ class CalibrationTable {
 
   std::size_t beams() const { return rows_.size(); }
   const std::vector<double>& depths() const { return depths_; }
-  /// As given, NaN included.
+  /// Image positions as given, NaN included.
   std::vector<double> imagePositions(std::size_t beam) const;
 
   /// Depth of an image position. Between two depths, 1/z is linear in p: that it would be for a

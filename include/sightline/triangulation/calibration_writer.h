@@ -12,7 +12,7 @@ namespace sightline::triangulation {
 CalibrationTable tableOf(const CalibrationRecording& recording, const ScanPattern& scan,
                          const std::string& source = "");
 
-/// What Calibration::read() takes, to the last digit.
+/// Writes the file that Calibration::read() takes, to the last digit.
 ///
 /// @param sigmas  standard deviations of the parameters, in the order of toVector(); for people
 std::string toYaml(const Calibration& calibration, const ParameterVector& sigmas);

@@ -10,7 +10,7 @@ namespace sightline::triangulation {
 /// its axis; `width` [m] is that between the 1/e² points.
 double powerBeyond(double reach, double width);
 
-/// What the width of the beam does to the image of a flat target that stands across straight ahead.
+/// Effect of the width of the beam on the image of a flat target that stands across straight ahead.
 /// Image position is not linear along the spot, and its nearer side returns more light, so that the
 /// centroid of the light is not where the beam's axis alone would be seen. That is of second order
 /// in the width: tenths of a micrometre.

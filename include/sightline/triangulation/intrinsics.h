@@ -5,8 +5,8 @@
 
 namespace sightline::triangulation {
 
-/// What makes one synchronised-scan sensor differ from the next (pears fig. 2): a laser that is
-/// scanned about the origin of the projection frame, and, in synchronism, a lens that is scanned
+/// Parameters in which one synchronised-scan sensor differs from the next (pears fig. 2): a laser
+/// is scanned about the origin of the projection frame, and, in synchronism, a lens is scanned
 /// about a point q beside it, with a position-sensitive detector behind the lens.
 struct Intrinsics {
   double focal_length = 0.050;                ///< f [m], from the lens to the detector

@@ -7,7 +7,7 @@
 
 namespace sightline::triangulation {
 
-// Where a joint fit starts: linear least squares, exact on readings without noise.
+// Start of a joint fit: linear least squares, exact on readings without noise.
 
 /// Origin and projected vergence from edges seen at known places. With t the tangent of the scan
 /// angle and T that of the vergence, y = y₀ + (z − x₀) tan(θ + γᵖ) is

@@ -11,14 +11,14 @@ namespace sightline::triangulation {
 struct ParameterEstimate {
   Intrinsics intrinsics;
   ScanOrigin origin;
-  /// Of the parameters in the order of toVector(): inverse of the information matrix.
+  /// Covariance of the parameters in the order of toVector(): inverse of the information matrix.
   Eigen::Matrix<double, kParameterCount, kParameterCount> covariance;
 
   std::vector<ImageReading> images;  ///< that were used, without the shift by the beam's width
   std::vector<StripeEdge> edges;     ///< that were found; sigmas include edge_scatter
   Eigen::VectorXd residuals;         ///< of the images, then of the edges, in standard deviations
-  /// What edges scatter by beyond the noise of the currents [m], lateral: how well they are made
-  /// and how far the beam is from Gaussian. Estimated from the edges themselves.
+  /// Scatter of edges beyond the noise of the currents [m], lateral: of how well they are made and
+  /// how far the beam is from Gaussian. Estimated from the edges themselves.
   double edge_scatter = 0.0;
 
   double sigma(int parameter) const;
@@ -31,8 +31,8 @@ struct ParameterEstimate {
 
 /// Estimates f, d, γ, s, the scan origin and the projected vergence jointly, by non-linear least
 /// squares over plain and striped targets; image positions have the noise of pears eq. 2. Starts
-/// from linear least squares, or from the nominal sensor where that fits better. Of the striped
-/// targets only the edges are used: between them an image position says what those of the plain
+/// from linear least squares, or from the nominal sensor where that fits better. Only the edges of
+/// the striped targets are used: between them an image position says what those of the plain
 /// ones say, and near one the stripes pull the centroid of the light.
 ///
 /// `nominal` is what the sensor was built to be: its scan, its detector and its noise current are

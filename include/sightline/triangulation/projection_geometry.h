@@ -6,7 +6,7 @@
 
 namespace sightline::triangulation {
 
-/// The way from a scene point to its image and back (pears eqs 3-10).
+/// Path of the light from a scene point to its image and back (pears eqs 3-10).
 ///
 /// Everything here is in the projection frame: origin in the laser's centre of scan, x straight
 /// ahead, y to the left, so that the lens is at negative y. A projection angle θ is that of the

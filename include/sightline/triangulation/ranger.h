@@ -11,7 +11,7 @@
 
 namespace sightline::triangulation {
 
-/// What a sensor delivers of one scan, one entry a beam.
+/// Readings of one scan of a sensor, one entry a beam.
 struct RawScan {
   std::int64_t stamp = 0;  ///< of the first sample, nanoseconds
   std::vector<Photocurrents> currents;
@@ -31,14 +31,14 @@ class Ranger {
  public:
   explicit Ranger(Calibration calibration);
 
-  /// Of one beam. Too little light is invalid (NaN, REP-117); what is nearer or farther than the
-  /// range limits, or than the table knows, is too near (−Inf) or nothing (+Inf).
+  /// Reads one beam. Too little light is invalid (NaN, REP-117); a surface nearer or farther than
+  /// the range limits, or than the table knows, is too near (−Inf) or nothing (+Inf).
   RangeReading read(std::size_t beam, const Photocurrents& currents) const;
 
-  /// Of a whole scan. The variance of a reading is taken at its neighbours' median image position
-  /// where that is of the same surface: taken at its own, a range that errs to the far side would
-  /// be believed less than one that errs to the near side, and lines would lie too near. Throws
-  /// scan::InvalidScan where the number of currents or of head angles is not that of the
+  /// Reads a whole scan. The variance of a reading is taken at its neighbours' median image
+  /// position where that is of the same surface: taken at its own, a range that errs to the far
+  /// side would be believed less than one that errs to the near side, and lines would lie too near.
+  /// Throws scan::InvalidScan where the number of currents or of head angles is not that of the
   /// beams, or a head angle is not finite.
   motion::RangeScan range(const RawScan& raw) const;
 

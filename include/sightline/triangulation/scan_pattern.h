@@ -8,7 +8,7 @@
 
 namespace sightline::triangulation {
 
-/// When and where the sensor measures, and what it accepts (pears table 1). One scan follows the
+/// Times and directions of the measurements, and their limits (pears table 1). One scan follows the
 /// other without a pause: 256 samples at 2.5 kHz are 9.8 scans a second.
 struct ScanPattern {
   int beams = 256;

@@ -17,8 +17,8 @@ struct ModelledDepths {
   void visit(config::FieldVisitor& visitor);
 };
 
-/// What there is to know of a synchronised-scan sensor on its servo head (pears section 2), be it
-/// real or simulated. Files of it are in config/sensors.
+/// Properties of a synchronised-scan sensor on its servo head (pears section 2), be it real or
+/// simulated. Files of it are in config/sensors.
 struct SensorProfile {
   SensorParameters sensor;
   motion::HeadLimits head;
@@ -33,9 +33,9 @@ struct SensorProfile {
   /// Takes the path of the calibration relative to the document, where it names one.
   void resolveCalibration(const config::Node& document);
 
-  /// What turns its currents into ranges: the calibration file, which has to be of this sensor and
-  /// of its scan, and whose limits of range and current count; or, without one, a table as these
-  /// very parameters fill it. Throws config::Error.
+  /// Calibration that turns its currents into ranges: the calibration file, which has to be of this
+  /// sensor and of its scan, and whose limits of range and current count; or, without one, a table
+  /// as these very parameters fill it. Throws config::Error.
   Calibration calibrated() const;
 };
 

@@ -6,8 +6,8 @@
 
 namespace sightline::triangulation {
 
-/// Where a scan passes from a dark to a bright stripe or back: at this scan angle the axis of the
-/// beam meets a place whose lateral position is known.
+/// Change of a scan from a dark to a bright stripe or back: at this scan angle the axis of the beam
+/// meets a place whose lateral position is known.
 struct StripeEdge {
   double depth = 0.0;       ///< [m], sensor frame
   double y = 0.0;           ///< [m], of the edge in the sensor frame

@@ -24,7 +24,7 @@ class InvalidRoomMap : public std::runtime_error {
   std::string key_;
 };
 
-/// What a building may measure and where it may stand [m]: beyond, squares overflow or vanish.
+/// Limits of lengths and places of a building [m]: beyond, squares overflow or vanish.
 constexpr config::Range kBuildingLengths{0.001, 1e6};
 constexpr config::Range kBuildingCoordinates{-1e6, 1e6};
 
@@ -38,7 +38,7 @@ struct Span {
 struct Wall {
   std::string name;
   geometry::Segment segment;
-  /// Where the wall is really there, in order and apart; doors are left out already.
+  /// Stretches where the wall is really there, in order and apart; doors are left out already.
   std::vector<Span> spans;
 };
 
@@ -53,7 +53,7 @@ struct Room {
   std::string name;
   geometry::Pose2 T_map_room;
   std::vector<Wall> walls;
-  /// Where the walls start, in the room's own frame [m].
+  /// Starts of the walls, in the room's own frame [m].
   std::vector<Eigen::Vector2d> corners;
   /// Whether it was described by its size, and its walls are named by compass.
   bool is_rectangle = false;
@@ -72,8 +72,8 @@ struct Door {
   bool threshold = true;  ///< whether wheels may slip on it (jensfelt section 4.3)
 };
 
-/// Where the opening of a door lies in a wall that it pierces, metres from the wall's start; may
-/// reach past the wall's ends.
+/// Stretch of a wall that the opening of a door takes, metres from the wall's start; may reach past
+/// the wall's ends.
 Span openingOf(const Door& door, const Wall& wall);
 
 /// Rooms, walls and doors of a floor: what a pose is tracked against. Built step by step, or read

@@ -13,7 +13,7 @@ namespace sightline::world {
 /// A side of a room seen from a point in front of it: all that does not depend on the ray.
 class FacingSide {
  public:
-  /// Where a ray meets the side.
+  /// Point at which a ray meets the side.
   struct Meeting {
     double range = 0.0;          ///< from the eye [m]
     double along = 0.0;          ///< from the start of the segment [m]
@@ -24,7 +24,7 @@ class FacingSide {
 
   /// Distance of the eye from the line of the side, positive on its left [m].
   double distance() const { return distance_; }
-  /// Where a ray meets the side, coming from the left of it; nothing where it passes by, runs
+  /// Finds where a ray meets the side, coming from the left of it; nothing where it passes by, runs
   /// along it or comes from behind.
   ///
   /// @param direction  unit vector, in the frame of segment and eye
@@ -38,21 +38,21 @@ class FacingSide {
   double length_;
 };
 
-/// What a ray into a map meets first.
+/// First thing of a map that a ray meets.
 struct Sighting {
   WallIndex wall;
   double range = 0.0;          ///< [m]
   double along = 0.0;          ///< place on the wall, metres from its start
   double cos_incidence = 1.0;  ///< of the angle between ray and wall normal, in (0, 1]
   bool is_solid = false;       ///< whether a span is there
-  /// How far the ray may be shifted before it meets another thing: distance from the ends of the
-  /// span and from the jambs of the doors it passed [m]. Distances are measured along the walls.
+  /// Distance that the ray may be shifted before it meets another thing: distance from the ends of
+  /// the span and from the jambs of the doors it passed [m], measured along the walls.
   double margin = 0.0;
 };
 
-/// What is seen of a map from a point in one of its rooms: the room's walls from inside, and
-/// through its doors the walls of the rooms behind them, and so on. A room is seen as if it stood
-/// alone but for its doors: rooms that overlap do not hide each other.
+/// View of a map from a point in one of its rooms: the room's walls from inside, and through its
+/// doors the walls of the rooms behind them, and so on. A room is seen as if it stood alone but for
+/// its doors: rooms that overlap do not hide each other.
 ///
 /// Holds the map by reference.
 class RoomView {
@@ -66,8 +66,8 @@ class RoomView {
   /// behind it is seen too.
   RoomView(const RoomMap& map, std::size_t room, const Eigen::Vector2d& eye_map, Doors doors);
 
-  /// Nothing where the ray leaves the map. A ray that ends at the jamb of a door has a sighting of
-  /// the door's wall there, which is not solid.
+  /// First thing along a ray; nothing where the ray leaves the map. A ray that ends at the jamb of
+  /// a door has a sighting of the door's wall there, which is not solid.
   ///
   /// @param direction_map  unit vector
   std::optional<Sighting> look(const Eigen::Vector2d& direction_map) const;

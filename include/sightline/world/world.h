@@ -13,7 +13,7 @@
 
 namespace sightline::world {
 
-/// How a surface answers light.
+/// Response of a surface to light.
 struct Material {
   std::string name = "plaster";
   /// Share of the light that comes back diffusely, above 0; retro-reflectors exceed 1.
@@ -57,8 +57,8 @@ struct Hit {
   std::optional<std::size_t> segment = std::nullopt;  ///< index into World::segments(), if one
 };
 
-/// What there is for a range sensor to see: upright pieces and cylinders with height and material,
-/// in the map frame.
+/// World for a range sensor to see: upright pieces and cylinders with height and material, in the
+/// map frame.
 ///
 /// ```yaml
 /// include:                            # further files of this kind
@@ -114,8 +114,8 @@ class World {
   struct Shortlist {
     std::vector<std::size_t> segments;
   };
-  /// For rays that stay, ahead of the origin of the axis and in plan view, within `half_width` [m]
-  /// of it. The axis must not be upright.
+  /// Shortlist for rays that stay, ahead of the origin of the axis and in plan view, within
+  /// `half_width` [m] of it. The axis must not be upright.
   Shortlist shortlist(const Ray& axis, double half_width) const;
   std::optional<Hit> cast(const Ray& ray, const Shortlist& shortlist) const;
 
@@ -127,7 +127,7 @@ class World {
     Eigen::Vector3d end;
   };
   static Side sideOf(const geometry::Segment& segment);
-  // Of any order and number of segments.
+  // Finds the nearest of segments that come in any order and number.
   class NearestSegment;
   void castOthers(const Ray& ray, std::optional<Hit>& nearest) const;
   void castDiscs(const Ray& ray, std::optional<Hit>& nearest) const;

@@ -33,7 +33,7 @@ std::string faultOfWholeNumber(const std::string& text) {
 Program::Program(const std::string& name, const std::string& purpose)
     : app_(std::make_unique<CLI::App>(purpose, name)) {
   app_->get_formatter()->label("Usage", "usage");
-  // In place of CLI11's own flag, which comes after the faults of the words around it.
+  // Replaces CLI11's own flag, which comes after the faults of the words around it.
   app_->set_help_flag();
   app_->add_flag_callback(
           "--help", [] { throw CLI::CallForHelp(); }, "print this and end")

@@ -31,7 +31,7 @@ class Program {
 
   /// The next word that belongs to no option; it may not be left out.
   void positional(const std::string& name, std::string& value, const std::string& meaning);
-  /// One that may be left out.
+  /// Adds an argument that may be left out.
   void positional(const std::string& name, std::optional<std::string>& value,
                   const std::string& meaning);
   /// All further words that belong to no option, at least one.

@@ -84,7 +84,7 @@ class Channel {
     std::size_t bad_published = 0;     ///< published, but never sent so
     std::vector<double> stamp_errors;  ///< of those published, 10 s after the first one [s]
   };
-  /// Of what was sent between the first scan published and now, apart from the last second.
+  /// Verdict on the scans sent between the first one published and now, apart from the last second.
   Verdict judge() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     Verdict verdict;

@@ -20,7 +20,7 @@
 
 namespace sightline::bench {
 
-/// Where a head truly was at each sample since the device began.
+/// True position of a head at each sample since the device began.
 class HeadTruth {
  public:
   void add(double angle) {

@@ -32,7 +32,7 @@ inline std::vector<scan::Scan> readScans(const std::string& bag_path, const std:
   return scans;
 }
 
-/// How much of a recording, the truth of which nobody knows, the extractor explains.
+/// Part of a recording, the truth of which nobody knows, that the extractor explains.
 class Explained {
  public:
   void add(const scan::Scan& scan, const std::vector<geometry::LineSegment>& segments,

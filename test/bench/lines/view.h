@@ -28,7 +28,7 @@ struct View {
   std::vector<std::size_t> beams_on_disc;  ///< valid ones
 };
 
-/// How a scan is taken.
+/// Settings of a sensor and its motion.
 struct Sensor {
   std::size_t beams = 1081;
   double field_of_view = geometry::radians(270.0);
@@ -60,7 +60,7 @@ class Viewer {
   double angleAt(double beam) const {
     return -0.5 * sensor_.field_of_view + beam * sensor_.field_of_view / steps();
   }
-  /// Of the sensor in the frame of the scan, at a fractional beam.
+  /// Pose of the sensor in the frame of the scan, at a fractional beam.
   geometry::Pose2 motionAt(double beam) const {
     if (sensor_.sweep_time == 0.0) return {};
     return geometry::Pose2::exp(sensor_.sweep_time * beam / steps() *
@@ -92,7 +92,7 @@ class Viewer {
     return share < 2.0 / 3.0 ? std::numeric_limits<double>::infinity() : 0.0;
   }
 
-  /// Where, on the wall, the line of sight at a fractional beam meets it [m from its start].
+  /// Place on the wall where the line of sight at a fractional beam meets it [m from its start].
   double alongWall(int wall, double beam) const {
     const geometry::Pose2 sensor = pose_ * motionAt(beam);
     const double heading = sensor.theta() + angleAt(beam);
@@ -154,7 +154,7 @@ class Viewer {
     if (fitFloor(wall, first, last, view.scan, span)) view.spans.push_back(span);
   }
 
-  /// Where the visible part really stops, between a beam on the wall and the next one off it.
+  /// True end of the visible part, between a beam on the wall and the next one off it.
   double edge(int wall, long beam, int sense) const {
     const auto n = static_cast<long>(sensor_.beams);
     const auto on_index = static_cast<double>(beam);
@@ -201,7 +201,7 @@ class Viewer {
     return 0.5 * (meet(beam) + meet(beam + sense));
   }
 
-  /// Where two visible spans share an end, the oracle has the crossing of their lines.
+  /// Takes the crossing of their lines for the end that two visible spans share.
   static void joinFloorCorners(VisibleSpan& span, const std::vector<VisibleSpan>& spans) {
     for (const VisibleSpan& other : spans) {
       if (other.wall == span.wall) continue;

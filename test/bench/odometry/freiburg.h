@@ -130,7 +130,7 @@ inline void printTimes(const std::string& name, const LogRun& run, double conver
   fmt::print("{}per_conversion {:.1f} 1\n", name, quantile(run.microseconds, 0.5) / conversion);
 }
 
-/// Where the truth of a step comes from: relations, and where they are silent a trajectory.
+/// Source of the truth of a step: relations, and where they are silent a trajectory.
 class StepTruth {
  public:
   // The relations hold 4 cm ahead of the point that scans and odometry share.

@@ -18,7 +18,7 @@
 /// moment that a scan is published to that in which its odometry has arrived.
 namespace sightline::bench {
 
-/// What a robot on a round tour of the demo's floor sees.
+/// Scans of a robot on a round tour of the demo's floor.
 inline std::vector<scan::Scan> tourOfTheFloor(std::size_t scans) {
   const std::string source = SIGHTLINE_SOURCE_DIR;
   simulation::Simulation simulation(world::World::readFile(source + "/config/worlds/floor.yaml"),

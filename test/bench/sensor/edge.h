@@ -18,7 +18,7 @@ class EdgeScans {
         ranger_(profile.calibrated()),
         world_(world::World::readFile(SIGHTLINE_SOURCE_DIR "/config/worlds/edge.yaml")) {}
 
-  /// From `ahead` [m] along the direction of sight: z of pears.
+  /// Scan from `ahead` [m] along the direction of sight: z of pears.
   scan::Scan from(double ahead, std::uint64_t seed) const {
     simulation::ActiveSensor sensor(profile_, seed);
     const Eigen::Isometry3d T_map_mount(Eigen::Translation3d(ahead, -1.5, 1.0));
@@ -56,6 +56,7 @@ inline void edges(const simulation::ActiveSensorProfile& profile) {
   const lines::PlainExtractor plain;
   print("sensor.figure4.two_segments", countSegments(scans, 0.5, full).two, "of_100");
   print("sensor.figure5.two_segments", countSegments(scans, 0.0, full).two, "of_100");
+  std::printf("# plain: the recursion alone at the default gate; pears shows 2 and 4 segments\n");
   print("sensor.figure4.plain_segments", countSegments(scans, 0.5, plain).mean, "segments");
   print("sensor.figure5.plain_segments", countSegments(scans, 0.0, plain).mean, "segments");
 }

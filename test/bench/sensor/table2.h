@@ -14,7 +14,7 @@
 
 namespace sightline::bench {
 
-/// What pears measured, 1000 readings a row.
+/// Measurements of pears, 1000 readings a row.
 struct Table2Row {
   const char* name;
   double depth;        // z [m]
