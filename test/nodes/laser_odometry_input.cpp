@@ -96,10 +96,11 @@ TEST(LaserOdometryNode, ClockSetBackDoesNotStopIt) {
 
 TEST(LaserOdometryParameters, OutOfRangeOrOfTheWrongTypeEndTheNode) {
   EXPECT_THAT(refusalOf("laser_odometry", "_odometry/carrier/max_speed:=-1"),
-              HasSubstr("odometry/carrier/max_speed: -1 is outside"));
+              HasSubstr("odometry.carrier.max_speed: -1 is outside"));
   EXPECT_THAT(refusalOf("laser_odometry", "_odometry/method:=guess"),
-              HasSubstr("odometry/method: "));
-  EXPECT_THAT(refusalOf("laser_odometry", "_publish_tf:=perhaps"), HasSubstr("publish_tf: "));
+              HasSubstr("odometry.method: 'guess' is none of"));
+  EXPECT_THAT(refusalOf("laser_odometry", "_publish_tf:=perhaps"),
+              HasSubstr("publish_tf: expected true or false"));
 }
 
 }  // namespace

@@ -214,6 +214,13 @@ class LinesInMotion : public LineExtractorNode {
       transforms.push_back(odometry(stamp + ros::Duration(t), 0.7 + t));
     }
     broadcaster_.sendTransform(transforms);
+    // Lines of a scan shortly before tell when the node knows of it.
+    auto probe = wallAhead(stamp - ros::Duration(0.2), 0.1);
+    EXPECT_TRUE(comesTrue([&] {
+      probe.header.stamp += ros::Duration(0, 2);
+      const auto arrays = answersTo({probe});
+      return arrays.size() == 1 && arrays[0].segments.size() == 1;
+    }));
   }
 
   static geometry_msgs::TransformStamped odometry(const ros::Time& stamp, double heading) {
@@ -229,7 +236,7 @@ class LinesInMotion : public LineExtractorNode {
 };
 
 TEST_F(LinesInMotion, ALineHoldsAtTheStampWhateverTheSweep) {
-  const ros::Time stamp = ros::Time::now();
+  const ros::Time stamp = ros::Time::now() + ros::Duration(1.0);
   turn(stamp, 0.2);
   const auto arrays = answersTo({wallAhead(stamp, 0.1)});
   ASSERT_EQ(arrays.size(), 1U);
@@ -252,9 +259,11 @@ TEST_F(LinesInMotion, WithoutOdometryEveryScanIsAnsweredAllTheSame) {
 }
 
 TEST(LineExtractorParameters, OutOfRangeOrOfTheWrongTypeEndTheNode) {
-  EXPECT_THAT(refusalOf("line_extractor", "_lines/gate:=0"), HasSubstr("lines/gate: 0 is outside"));
-  EXPECT_THAT(refusalOf("line_extractor", "_lines/gate:=wide"), HasSubstr("lines/gate: "));
-  EXPECT_THAT(refusalOf("line_extractor", "_noise/kind:=white"), HasSubstr("noise/kind: "));
+  EXPECT_THAT(refusalOf("line_extractor", "_lines/gate:=0"), HasSubstr("lines.gate: 0 is outside"));
+  EXPECT_THAT(refusalOf("line_extractor", "_lines/gate:=wide"),
+              HasSubstr("lines.gate: expected a number, found 'wide'"));
+  EXPECT_THAT(refusalOf("line_extractor", "_noise/kind:=white"),
+              HasSubstr("noise.kind: 'white' is none of"));
 }
 
 }  // namespace

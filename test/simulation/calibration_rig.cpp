@@ -1,4 +1,3 @@
-#include <iostream>
 // What a simulated rig records, and what calibration makes of it.
 #include "sightline/simulation/calibration_rig.h"
 
@@ -150,9 +149,6 @@ TEST(ParameterEstimation, HasTheTruthInItsIntervals) {
   EXPECT_GE(in_gate, expected.least);
   EXPECT_LE(in_gate, expected.most);
   EXPECT_NEAR(nees, kSize, 4.0 * std::sqrt(2.0 * kSize / kRuns));
-  std::cerr << "MEASURED " << inside.transpose() << " sum " << inside.sum() / double(kRuns * kSize)
-            << " gate " << in_gate << " nees " << nees << " range " << expected.least << " "
-            << expected.most << std::endl;
 }
 
 // Which parameters the recording of a rig leaves open.
