@@ -74,4 +74,24 @@ double normalisedSquare(const Eigen::Matrix<double, kSize, 1>& error,
   return error.dot(covariance.ldlt().solve(error));
 }
 
+/// Counts that are to be expected of trials.
+struct CountRange {
+  int least;
+  int most;
+};
+
+/// How many of independent trials succeed, each with the same probability, but for the cases in
+/// either tail of the binomial distribution.
+inline CountRange binomialRange(int trials, double probability, double tail = 1e-3) {
+  const auto chanceOf = [&](int successes) {
+    return std::exp(std::lgamma(trials + 1.0) - std::lgamma(successes + 1.0) -
+                    std::lgamma(trials - successes + 1.0) + successes * std::log(probability) +
+                    (trials - successes) * std::log1p(-probability));
+  };
+  CountRange range{0, trials};
+  for (double below = chanceOf(0); below < tail; below += chanceOf(range.least)) ++range.least;
+  for (double above = chanceOf(trials); above < tail; above += chanceOf(range.most)) --range.most;
+  return range;
+}
+
 }  // namespace sightline::test

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <limits>
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/Twist.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,8 @@
 #include <sightline/HeadCommand.h>
 #include <sightline/LineSegmentArray.h>
 #include <sightline/RangeScan.h>
+#include "nodes/comes_true.h"
+#include "nodes/diagnostics.h"
 #include "nodes/recorder.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/geometry/polar_line.h"
@@ -31,7 +32,7 @@ class ActiveSensorNode : public testing::Test {
     message.mode = mode;
     message.position = position;
     message.rate = rate;
-    while (ros::ok() && commands_.getNumSubscribers() == 0) ros::WallDuration(0.01).sleep();
+    EXPECT_TRUE(test::comesTrue([this] { return commands_.getNumSubscribers() > 0; }));
     commands_.publish(message);
   }
   // The head's position once it stands still near `position`.
@@ -46,24 +47,14 @@ class ActiveSensorNode : public testing::Test {
     ADD_FAILURE() << "the head does not come to " << position;
     return std::nan("");
   }
-  std::string reasonOfLastDrop() {
-    for (int i = 0; i < 20; ++i) {
-      for (const auto& status : diagnostics_.next().status) {
-        if (status.name.find("/head_command") == std::string::npos) continue;
-        for (const auto& value : status.values) {
-          if (value.key.find("reason") != std::string::npos && !value.value.empty()) {
-            return value.value;
-          }
-        }
-      }
-    }
-    return "none";
+  void expectRefused(const std::string& reason) {
+    diagnostics_.expectValue("sim_sensor: input /head_command", "last reason", reason);
   }
 
   ros::NodeHandle node_;
   ros::Publisher commands_ = node_.advertise<HeadCommand>("head_command", 10);
   Recorder<sensor_msgs::JointState> joints_{"joint_states"};
-  Recorder<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+  test::Diagnostics diagnostics_;
 };
 
 TEST_F(ActiveSensorNode, PublishesEachScanInBothForms) {
@@ -101,16 +92,13 @@ TEST_F(ActiveSensorNode, TurnsItsHeadAsItIsTold) {
 TEST_F(ActiveSensorNode, RefusesCommandsThatNoHeadCanFollow) {
   const double position = positionNear(0.0);
   command(HeadCommand::POSITION, 2.0, 0.0);
-  EXPECT_THAT(reasonOfLastDrop(), testing::HasSubstr("beyond the limits"));
+  expectRefused("beyond the limits");
   command(HeadCommand::RATE, 0.0, std::nan(""));
-  ros::WallDuration(0.6).sleep();
-  EXPECT_THAT(reasonOfLastDrop(), testing::HasSubstr("a rate that is not finite"));
+  expectRefused("a rate that is not finite");
   command(HeadCommand::POSITION, 0.5, 0.0, "elbow");
-  ros::WallDuration(0.6).sleep();
-  EXPECT_THAT(reasonOfLastDrop(), testing::HasSubstr("for the joint 'elbow'"));
+  expectRefused("for the joint 'elbow'");
   command(7, 0.5, 0.0);
-  ros::WallDuration(0.6).sleep();
-  EXPECT_THAT(reasonOfLastDrop(), testing::HasSubstr("an unknown mode 7"));
+  expectRefused("an unknown mode 7");
   EXPECT_EQ(positionNear(0.0), position);
 }
 
@@ -126,10 +114,10 @@ TEST_F(ActiveSensorNode, LinesStandStillWhileHeadAndRobotMove) {
   const ros::Time began = lines.next().header.stamp;
   geometry_msgs::Twist velocity;
   velocity.linear.x = 0.15;
-  for (int i = 0; i < 12; ++i) {
-    if (i % 4 == 0) command(HeadCommand::RATE, 0.0, i % 8 == 0 ? 0.4 : -0.4);
+  for (int i = 0; i < 24; ++i) {  // scans of 0.1 s
+    if (i % 8 == 0) command(HeadCommand::RATE, 0.0, i % 16 == 0 ? 0.4 : -0.4);
     drive.publish(velocity);
-    ros::WallDuration(0.1).sleep();
+    lines.next();
   }
   command(HeadCommand::POSITION, 0.0, 0.0);
   const auto distancesOf = [&](const Recorder<LineSegmentArray>& recorder) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "nodes/recorder.h"
+#include "nodes/comes_true.h"
+#include "nodes/diagnostics.h"
 #include "sightline/RangeScan.h"
 #include "sightline/simulation/active_sensor_device.h"
 #include "sightline/simulation/emulated_device.h"
@@ -57,53 +56,12 @@ class DriverProcess {
   pid_t process_ = -1;
 };
 
-inline bool comesTrue(const std::function<bool()>& condition) {
-  for (int i = 0; i < 2000 && ros::ok(); ++i) {
-    if (condition()) return true;
-    ros::WallDuration(0.01).sleep();
-  }
-  return false;
-}
-
 inline std::unique_ptr<simulation::ActiveSensorDevice> deviceInLivingRoom() {
   return std::make_unique<simulation::ActiveSensorDevice>(
       simulation::ActiveSensorProfile{},
       world::World::readFile(SIGHTLINE_SOURCE_DIR "/config/worlds/living_room.yaml"),
       simulation::inSpace({-1.5, 1.0, 2.5}), 1);
 }
-
-/// The latest status of every part of every node.
-class Diagnostics {
- public:
-  std::string text(const std::string& name) const {
-    const auto status = find(name);
-    return status ? status->message : "";
-  }
-  std::string value(const std::string& name, const std::string& key) const {
-    const auto status = find(name);
-    if (!status) return "";
-    for (const auto& pair : status->values) {
-      if (pair.key == key) return pair.value;
-    }
-    return "";
-  }
-  std::string hardware(const std::string& name) const {
-    const auto status = find(name);
-    return status ? status->hardware_id : "";
-  }
-
- private:
-  std::optional<diagnostic_msgs::DiagnosticStatus> find(const std::string& name) const {
-    std::optional<diagnostic_msgs::DiagnosticStatus> latest;
-    for (const auto& array : recorder_.all()) {
-      for (const auto& status : array.status) {
-        if (status.name == name) latest = status;
-      }
-    }
-    return latest;
-  }
-  Recorder<diagnostic_msgs::DiagnosticArray> recorder_{"/diagnostics"};
-};
 
 /// Emulated devices, the drivers that look for them, and what is said of them.
 class DriverTest : public ::testing::Test {

@@ -15,6 +15,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <std_srvs/SetBool.h>
 
+#include "nodes/connections.h"
 #include "nodes/launch.h"
 #include "nodes/recorder.h"
 #include "sightline/bridge/pose_conversion.h"
@@ -98,12 +99,12 @@ class Freiburg : public testing::Test {
     return poses;
   }
 
-  // The scans are subscribed to last, after the services; connecting takes the player a moment.
   static void play() {
     const std::string pause = "player/pause_playback";
-    ASSERT_TRUE(ros::service::waitForService("room_tracker/inflate_uncertainty", 60000));
     ASSERT_TRUE(ros::service::waitForService(pause, 60000));
-    ros::WallDuration(2.0).sleep();
+    for (const char* topic : {"/scan", "/tf", "/clock"}) {
+      test::waitForConnection("/player", topic, "/estimators");
+    }
     std_srvs::SetBool resume;
     resume.request.data = false;
     ASSERT_TRUE(ros::service::call(pause, resume) && resume.response.success);

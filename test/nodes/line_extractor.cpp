@@ -1,18 +1,22 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
-#include <sys/wait.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include "nodes/comes_true.h"
+#include "nodes/connections.h"
+#include "nodes/diagnostics.h"
 #include "nodes/recorder.h"
+#include "nodes/refusal.h"
 #include "sightline/LineSegmentArray.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/geometry/angle.h"
@@ -20,7 +24,10 @@
 namespace sightline {
 namespace {
 
+using test::comesTrue;
 using test::Recorder;
+using test::refusalOf;
+using testing::HasSubstr;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -51,22 +58,39 @@ class LineExtractorNode : public ::testing::Test {
       : publisher_(node_.advertise<sensor_msgs::LaserScan>(prefix + "scan", 100)),
         lines_(prefix + "lines"),
         markers_(prefix + "line_markers") {
-    while (ros::ok() && publisher_.getNumSubscribers() < 1) ros::WallDuration(0.02).sleep();
     // The node has connected to the recorders too once an answer has come.
-    while (ros::ok() && (lines_.count() == 0 || markers_.count() == 0)) {
-      publisher_.publish(wallAhead(ros::Time::now()));
-      ros::WallDuration(0.1).sleep();
-    }
-    ros::WallDuration(0.3).sleep();
+    EXPECT_TRUE(comesTrue([&] { return lines_.count() > 0 && markers_.count() > 0; },
+                          [&] { publisher_.publish(wallAhead(ros::Time::now())); }));
+    answersTo({});
   }
 
-  // All that has come since the last call, after the node has had time to answer.
-  std::vector<LineSegmentArray> answers() {
-    ros::WallDuration(0.7).sleep();
-    const auto all = lines_.all();
-    const std::vector<LineSegmentArray> fresh(all.begin() + static_cast<long>(seen_), all.end());
+  // A scan behind them tells when all are answered, as a node answers in order.
+  std::vector<LineSegmentArray> answersTo(const std::vector<sensor_msgs::LaserScan>& scans) {
+    ros::Time last = scans.empty() ? ros::Time::now() : ros::Time();
+    for (const auto& scan : scans) {
+      last = std::max(last, scan.header.stamp);
+      publisher_.publish(scan);
+    }
+    const auto closing = wallAhead(last + ros::Duration(0, 1));
+    publisher_.publish(closing);
+    const auto isLast = [&](const auto& array) {
+      return array.header.stamp == closing.header.stamp;
+    };
+    std::vector<LineSegmentArray> all;
+    EXPECT_TRUE(comesTrue([&] {
+      all = lines_.all();
+      return !all.empty() && isLast(all.back());
+    }));
+    const auto first = all.begin() + static_cast<long>(std::min(seen_, all.size()));
     seen_ = all.size();
-    return fresh;
+    return {first, all.empty() ? all.end() : std::prev(all.end())};
+  }
+
+  std::vector<visualization_msgs::Marker> markersOf(const ros::Time& stamp) const {
+    for (const auto& array : markers_.all()) {
+      if (!array.markers.empty() && array.markers[0].header.stamp == stamp) return array.markers;
+    }
+    return {};
   }
 
   ros::NodeHandle node_;
@@ -77,18 +101,15 @@ class LineExtractorNode : public ::testing::Test {
 };
 
 TEST_F(LineExtractorNode, AnswersEveryScanOnceWithItsStampAndFrame) {
-  answers();
-  std::vector<ros::Time> stamps;
+  std::vector<sensor_msgs::LaserScan> scans;
   for (int i = 0; i < 20; ++i) {
     // A stamp in the past is as good as any: lines do not depend on what was before.
-    stamps.push_back(ros::Time(1000 + (i == 10 ? 1 : i), 123456789));
-    publisher_.publish(wallAhead(stamps.back()));
-    ros::WallDuration(0.01).sleep();
+    scans.push_back(wallAhead(ros::Time(1000 + (i == 10 ? 1 : i), 123456789)));
   }
-  const auto arrays = answers();
-  ASSERT_EQ(arrays.size(), stamps.size());
-  for (std::size_t i = 0; i < stamps.size(); ++i) {
-    EXPECT_EQ(arrays[i].header.stamp, stamps[i]);
+  const auto arrays = answersTo(scans);
+  ASSERT_EQ(arrays.size(), scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    EXPECT_EQ(arrays[i].header.stamp, scans[i].header.stamp);
     EXPECT_EQ(arrays[i].header.frame_id, "laser");
     ASSERT_EQ(arrays[i].segments.size(), 1U);
     EXPECT_NEAR(arrays[i].segments[0].rho, 2.0, 0.01);
@@ -97,23 +118,25 @@ TEST_F(LineExtractorNode, AnswersEveryScanOnceWithItsStampAndFrame) {
 }
 
 TEST_F(LineExtractorNode, AnswersAnEmptyWorldWithAnEmptyArray) {
-  answers();
   auto scan = wallAhead(ros::Time(2000, 5));
   for (float& range : scan.ranges) range = std::numeric_limits<float>::infinity();
-  publisher_.publish(scan);
-  const auto arrays = answers();
+  const auto arrays = answersTo({scan});
   ASSERT_EQ(arrays.size(), 1U);
   EXPECT_TRUE(arrays[0].segments.empty());
   EXPECT_EQ(arrays[0].header.stamp, ros::Time(2000, 5));
   EXPECT_EQ(arrays[0].header.frame_id, "laser");
-  for (const auto& marker : markers_.all().back().markers) {
+  std::vector<visualization_msgs::Marker> markers;
+  EXPECT_TRUE(comesTrue([&] {
+    markers = markersOf(ros::Time(2000, 5));
+    return !markers.empty();
+  }));
+  for (const auto& marker : markers) {
     EXPECT_EQ(marker.action, visualization_msgs::Marker::DELETE);
   }
 }
 
 TEST_F(LineExtractorNode, BadScansAreDroppedAndCounted) {
-  Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  answers();
+  const test::Diagnostics diagnostics;
   const ros::Time now = ros::Time::now();
   auto no_beams = wallAhead(now);
   no_beams.ranges.clear();
@@ -124,35 +147,24 @@ TEST_F(LineExtractorNode, BadScansAreDroppedAndCounted) {
   auto intensities = wallAhead(now);
   intensities.intensities.resize(3);
   const auto no_stamp = wallAhead(ros::Time());
+  std::vector<sensor_msgs::LaserScan> scans;
   for (const auto& bad : {no_beams, no_increment, nan_increment, intensities, no_stamp}) {
-    publisher_.publish(bad);
-    publisher_.publish(wallAhead(now));
+    scans.push_back(bad);
+    scans.push_back(wallAhead(now));
   }
-  EXPECT_EQ(answers().size(), 5U) << "the good ones";
-  const auto dropped = [&] {
-    std::string count = "0";
-    for (const auto& array : diagnostics.all()) {
-      for (const auto& status : array.status) {
-        if (status.name != "line_extractor: input /scan") continue;
-        for (const auto& value : status.values) {
-          if (value.key == "dropped") count = value.value;
-        }
-      }
-    }
-    return std::stoi(count);
-  };
-  for (int i = 0; i < 200 && dropped() < 5; ++i) ros::WallDuration(0.05).sleep();
-  EXPECT_EQ(dropped(), 5);
+  EXPECT_EQ(answersTo(scans).size(), 5U) << "the good ones";
+  const std::string name = "line_extractor: input /scan";
+  EXPECT_TRUE(comesTrue([&] { return diagnostics.value(name, "dropped") == "5"; }))
+      << diagnostics.value(name, "dropped");
+  EXPECT_EQ(diagnostics.value(name, "last reason"), "a stamp of zero");
 }
 
 TEST_F(LineExtractorNode, SingleBadReturnsAreSkipped) {
-  answers();
   auto scan = wallAhead(ros::Time::now());
   for (std::size_t i = 5; i < scan.ranges.size(); i += 17) {
     scan.ranges[i] = i % 3 == 0 ? kNan : i % 3 == 1 ? 0.0F : -1.0F;
   }
-  publisher_.publish(scan);
-  const auto arrays = answers();
+  const auto arrays = answersTo({scan});
   ASSERT_EQ(arrays.size(), 1U);
   EXPECT_EQ(arrays[0].segments.size(), 1U);
 }
@@ -166,13 +178,10 @@ TEST_F(LineExtractorNode, SettingsCanBeChangedWhileItRuns) {
     call.request.config.doubles.push_back(parameter);
     EXPECT_TRUE(ros::service::call("line_extractor/lines/set_parameters", call));
   };
-  answers();
   set(5.0);
-  publisher_.publish(wallAhead(ros::Time::now()));
-  const auto none = answers();
+  const auto none = answersTo({wallAhead(ros::Time::now())});
   set(0.5);
-  publisher_.publish(wallAhead(ros::Time::now()));
-  const auto one = answers();
+  const auto one = answersTo({wallAhead(ros::Time::now())});
   ASSERT_EQ(none.size(), 1U);
   ASSERT_EQ(one.size(), 1U);
   EXPECT_EQ(none[0].segments.size(), 0U);
@@ -185,9 +194,7 @@ class NodeletOfLines : public LineExtractorNode {
 };
 
 TEST_F(NodeletOfLines, AnswersAsTheNodeDoes) {
-  answers();
-  publisher_.publish(wallAhead(ros::Time(3000, 1)));
-  const auto arrays = answers();
+  const auto arrays = answersTo({wallAhead(ros::Time(3000, 1))});
   ASSERT_EQ(arrays.size(), 1U);
   EXPECT_EQ(arrays[0].header.stamp, ros::Time(3000, 1));
   EXPECT_EQ(arrays[0].segments.size(), 1U);
@@ -197,35 +204,41 @@ TEST_F(NodeletOfLines, AnswersAsTheNodeDoes) {
 class LinesInMotion : public LineExtractorNode {
  protected:
   LinesInMotion() : LineExtractorNode("moving/") {
-    ros::WallDuration(1.0).sleep();  // for the broadcaster to be connected
+    test::waitForConnection(ros::this_node::getName(), "/tf", "/moving/line_extractor");
   }
 
-  void sendOdometry(const ros::Time& stamp, double heading) {
+  // Odometry from a second before `stamp` to `reach` after it, in one message.
+  void turn(const ros::Time& stamp, double reach) {
+    std::vector<geometry_msgs::TransformStamped> transforms;
+    for (double t = -1.0; t <= reach + 1e-6; t += 0.02) {
+      transforms.push_back(odometry(stamp + ros::Duration(t), 0.7 + t));
+    }
+    broadcaster_.sendTransform(transforms);
+    // Lines of a scan shortly before tell when the node knows of it.
+    auto probe = wallAhead(stamp - ros::Duration(0.2), 0.1);
+    EXPECT_TRUE(comesTrue([&] {
+      probe.header.stamp += ros::Duration(0, 2);
+      const auto arrays = answersTo({probe});
+      return arrays.size() == 1 && arrays[0].segments.size() == 1;
+    }));
+  }
+
+  static geometry_msgs::TransformStamped odometry(const ros::Time& stamp, double heading) {
     geometry_msgs::TransformStamped transform;
     transform.header.stamp = stamp;
     transform.header.frame_id = "odom";
     transform.child_frame_id = "laser";
     transform.transform = bridge::toTransform({3.0, -1.0, heading});
-    broadcaster_.sendTransform(transform);
-  }
-
-  // Odometry from a second before `stamp` to `reach` after it.
-  void turn(const ros::Time& stamp, double reach) {
-    for (double t = -1.0; t <= reach + 1e-6; t += 0.02) {
-      sendOdometry(stamp + ros::Duration(t), 0.7 + t);
-    }
-    ros::WallDuration(0.3).sleep();
+    return transform;
   }
 
   tf2_ros::TransformBroadcaster broadcaster_;
 };
 
 TEST_F(LinesInMotion, ALineHoldsAtTheStampWhateverTheSweep) {
-  const ros::Time stamp = ros::Time::now();
+  const ros::Time stamp = ros::Time::now() + ros::Duration(1.0);
   turn(stamp, 0.2);
-  answers();
-  publisher_.publish(wallAhead(stamp, 0.1));
-  const auto arrays = answers();
+  const auto arrays = answersTo({wallAhead(stamp, 0.1)});
   ASSERT_EQ(arrays.size(), 1U);
   ASSERT_EQ(arrays[0].segments.size(), 1U);
   EXPECT_NEAR(arrays[0].segments[0].rho, 2.0, 0.01);
@@ -235,33 +248,22 @@ TEST_F(LinesInMotion, ALineHoldsAtTheStampWhateverTheSweep) {
 TEST_F(LinesInMotion, TheMotionOfAMomentAgoServesWhereOdometryLags) {
   const ros::Time stamp = ros::Time::now() + ros::Duration(10.0);
   turn(stamp, -0.1);
-  answers();
-  publisher_.publish(wallAhead(stamp, 0.1));
-  const auto arrays = answers();
+  const auto arrays = answersTo({wallAhead(stamp, 0.1)});
   ASSERT_EQ(arrays.size(), 1U);
   ASSERT_EQ(arrays[0].segments.size(), 1U);
   EXPECT_NEAR(arrays[0].segments[0].phi, 0.0, 0.005) << "the motion of a moment ago serves";
 }
 
 TEST_F(LinesInMotion, WithoutOdometryEveryScanIsAnsweredAllTheSame) {
-  answers();
-  publisher_.publish(wallAhead(ros::Time::now() + ros::Duration(100.0)));
-  EXPECT_EQ(answers().size(), 1U);
-}
-
-// Ends of a node that is given nonsense.
-int statusOf(const std::string& arguments) {
-  const int status = std::system(
-      ("rosrun sightline line_extractor __name:=bad " + arguments + " > /dev/null 2>&1").c_str());
-  return WEXITSTATUS(status);
+  EXPECT_EQ(answersTo({wallAhead(ros::Time::now() + ros::Duration(100.0))}).size(), 1U);
 }
 
 TEST(LineExtractorParameters, OutOfRangeOrOfTheWrongTypeEndTheNode) {
-  EXPECT_EQ(statusOf("_lines/gate:=0"), 1);
-  ros::param::del("/bad");
-  EXPECT_EQ(statusOf("_lines/gate:=wide"), 1);
-  ros::param::del("/bad");
-  EXPECT_EQ(statusOf("_noise/kind:=white"), 1);
+  EXPECT_THAT(refusalOf("line_extractor", "_lines/gate:=0"), HasSubstr("lines.gate: 0 is outside"));
+  EXPECT_THAT(refusalOf("line_extractor", "_lines/gate:=wide"),
+              HasSubstr("lines.gate: expected a number, found 'wide'"));
+  EXPECT_THAT(refusalOf("line_extractor", "_noise/kind:=white"),
+              HasSubstr("noise.kind: 'white' is none of"));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <sightline/RangeScan.h>
+#include "nodes/comes_true.h"
 #include "nodes/recorder.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "tools/program.h"
@@ -105,7 +106,7 @@ TEST(Robots, CommandsReachTheOneTheyAreFor) {
   Recorder<nav_msgs::Odometry> truth_of_ann("/ann/ground_truth");
   Recorder<nav_msgs::Odometry> truth_of_bob("/bob/ground_truth");
   auto commands = ros::NodeHandle().advertise<geometry_msgs::Twist>("/bob/cmd_vel", 10);
-  while (ros::ok() && commands.getNumSubscribers() == 0) ros::WallDuration(0.01).sleep();
+  ASSERT_TRUE(test::comesTrue([&] { return commands.getNumSubscribers() > 0; }));
   geometry_msgs::Twist command;
   command.angular.z = 0.3;
   nav_msgs::Odometry bob = truth_of_bob.next();
@@ -125,7 +126,7 @@ std::string endOf(const std::string& robots) {
                    " \"{world: " SIGHTLINE_SOURCE_DIR "/config/worlds/edge.yaml, " + robots +
                    "}\"");
   const auto result = test::runProgram("sim_sensor", "__ns:=/ended" + std::to_string(number));
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 1) << result.output;
   return result.output;
 }
 

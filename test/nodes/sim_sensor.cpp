@@ -1,7 +1,6 @@
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <geometry_msgs/Twist.h>
@@ -10,17 +9,20 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
-#include <sys/wait.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "nodes/comes_true.h"
 #include "nodes/recorder.h"
+#include "nodes/refusal.h"
 #include "sightline/bridge/pose_conversion.h"
 
 namespace sightline {
 namespace {
 
+using test::comesTrue;
 using test::Recorder;
+using test::refusalOf;
 
 template <class Message>
 std::vector<double> intervals(const std::vector<Message>& messages) {
@@ -103,7 +105,7 @@ TEST(SimSensorNode, CommandsDriveTheFirstRobotUntilTheyCease) {
   Recorder<nav_msgs::Odometry> truth("/one/ground_truth");
   Recorder<nav_msgs::Odometry> odometry("/one/odom");
   auto commands = ros::NodeHandle().advertise<geometry_msgs::Twist>("/one/cmd_vel", 10);
-  while (commands.getNumSubscribers() == 0) ros::WallDuration(0.01).sleep();
+  ASSERT_TRUE(comesTrue([&] { return commands.getNumSubscribers() > 0; }));
   geometry_msgs::Twist command;
   command.linear.x = 0.2;
   command.angular.z = -0.1;
@@ -127,7 +129,7 @@ TEST(SimSensorNode, CommandsDriveTheFirstRobotUntilTheyCease) {
 TEST(SimSensorNode, CommandThatIsNotANumberIsDropped) {
   Recorder<nav_msgs::Odometry> truth("/one/ground_truth");
   auto commands = ros::NodeHandle().advertise<geometry_msgs::Twist>("/one/cmd_vel", 10);
-  while (commands.getNumSubscribers() == 0) ros::WallDuration(0.01).sleep();
+  ASSERT_TRUE(comesTrue([&] { return commands.getNumSubscribers() > 0; }));
   geometry_msgs::Twist command;
   command.linear.x = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 20; ++i) {
@@ -136,24 +138,6 @@ TEST(SimSensorNode, CommandThatIsNotANumberIsDropped) {
     EXPECT_EQ(now.twist.twist.linear.x, 0.0);
     EXPECT_TRUE(bridge::toPose2(now.pose.pose).isFinite());
   }
-}
-
-// What a program says, and how it ends.
-struct Outcome {
-  std::string said;
-  int status = -1;
-};
-
-Outcome simSensorWith(const std::string& parameters) {
-  Outcome outcome;
-  const std::string line =
-      "rosrun sightline sim_sensor __name:=sim_sensor_of_bad_files " + parameters + " 2>&1";
-  std::FILE* pipe = popen(line.c_str(), "r");
-  std::array<char, 256> piece{};
-  while (std::fgets(piece.data(), piece.size(), pipe) != nullptr) outcome.said += piece.data();
-  outcome.status = WEXITSTATUS(pclose(pipe));
-  ros::param::del("/sim_sensor_of_bad_files");
-  return outcome;
 }
 
 std::string worldWith(const std::string& text) {
@@ -165,26 +149,16 @@ std::string worldWith(const std::string& text) {
 TEST(SimSensorNode, BadFilesEndItWithFileLineAndKey) {
   using testing::HasSubstr;
   const std::string world = worldWith("materials: {}\ndiscs:\n  - {centre: [0, 0], radius: -1}\n");
-  const Outcome bad_world = simSensorWith("_world:=" + world);
-  EXPECT_EQ(bad_world.status, 1);
-  EXPECT_THAT(bad_world.said, HasSubstr(world + ":3: discs[0].radius: -1 is outside"));
-
-  const Outcome no_world = simSensorWith("");
-  EXPECT_EQ(no_world.status, 1);
-  EXPECT_THAT(no_world.said, HasSubstr("world: has to name a world file"));
-
-  const Outcome no_file = simSensorWith("_world:=/nowhere.yaml");
-  EXPECT_EQ(no_file.status, 1);
-  EXPECT_THAT(no_file.said, HasSubstr("/nowhere.yaml: no such file"));
-
+  EXPECT_THAT(refusalOf("sim_sensor", "_world:=" + world),
+              HasSubstr(world + ":3: discs[0].radius: -1 is outside"));
+  EXPECT_THAT(refusalOf("sim_sensor", ""), HasSubstr("world: has to name a world file"));
+  EXPECT_THAT(refusalOf("sim_sensor", "_world:=/nowhere.yaml"),
+              HasSubstr("/nowhere.yaml: no such file"));
   const std::string empty = worldWith("{}");
-  const Outcome bad_parameter = simSensorWith("_world:=" + empty + " _odometry_rate:=-1");
-  EXPECT_EQ(bad_parameter.status, 1);
-  EXPECT_THAT(bad_parameter.said, HasSubstr("odometry_rate: -1 is outside"));
-
-  const Outcome bad_path = simSensorWith("_world:=" + empty + " _path:=" + world);
-  EXPECT_EQ(bad_path.status, 1);
-  EXPECT_THAT(bad_path.said, HasSubstr(world + ":1: missing key 'waypoints'"));
+  EXPECT_THAT(refusalOf("sim_sensor", "_world:=" + empty + " _odometry_rate:=-1"),
+              HasSubstr("odometry_rate: -1 is outside"));
+  EXPECT_THAT(refusalOf("sim_sensor", "_world:=" + empty + " _path:=" + world),
+              HasSubstr(world + ":1: missing key 'waypoints'"));
 }
 
 }  // namespace

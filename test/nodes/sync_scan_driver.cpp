@@ -1,8 +1,7 @@
 // The driver against emulated devices that behave, and others that do not.
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,22 +11,17 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include "nodes/driver_test.h"
 #include "nodes/quantisation.h"
 #include "nodes/recorder.h"
-#include "sightline/HeadCommand.h"
-#include "sightline/bridge/pose_conversion.h"
+#include "nodes/refusal.h"
 #include "sightline/bridge/range_scan_conversion.h"
 #include "sightline/lines/line_extractor.h"
-#include "tools/program.h"
 
 namespace sightline {
 namespace {
 
-using simulation::ActiveSensorProfile;
 using simulation::EmulatedDevice;
 using simulation::FirmwareConfig;
 using test::comesTrue;
@@ -104,89 +98,6 @@ TEST_F(SyncScanDriver, ScansComeBackWithTheDevice) {
   scans.atLeast(scans.count() + 3);
 }
 
-class HeadCommands : public SyncScanDriver {
- protected:
-  void SetUp() override {
-    start("head");
-    joints_.atLeast(1);
-    while (ros::ok() && publisher_.getNumSubscribers() == 0) ros::WallDuration(0.02).sleep();
-  }
-  void send(std::uint8_t mode, double position, double rate, const std::string& joint = "") {
-    HeadCommand command;
-    command.joint = joint;
-    command.mode = mode;
-    command.position = position;
-    command.rate = rate;
-    publisher_.publish(command);
-  }
-  double angle() const { return joints_.next().position.at(0); }
-  // For a while by the stamps.
-  bool stands() const {
-    const auto first = joints_.next();
-    auto last = first;
-    while (!HasFailure() && last.header.stamp < first.header.stamp + ros::Duration(0.3)) {
-      last = joints_.next();
-    }
-    return last.position == first.position;
-  }
-  void expectRefused(const std::string& reason) {
-    const std::string name = "head/sync_scan_driver: input /head/head_command";
-    EXPECT_TRUE(comesTrue([&] {
-      return diagnostics_.value(name, "last reason").find(reason) != std::string::npos;
-    })) << diagnostics_.value(name, "last reason");
-  }
-
-  Recorder<sensor_msgs::JointState> joints_{"/head/joint_states"};
-  ros::Publisher publisher_ = ros::NodeHandle().advertise<HeadCommand>("/head/head_command", 10);
-};
-
-TEST_F(HeadCommands, TurnTheHead) {
-  send(HeadCommand::POSITION, 0.7, 0.0, "head_joint");
-  EXPECT_TRUE(comesTrue([&] { return std::abs(angle() - 0.7) < 0.0035; }));
-  send(HeadCommand::RATE, 0.0, -0.2);
-  EXPECT_TRUE(comesTrue([&] { return angle() < 0.6; }));
-  send(HeadCommand::STOP, 0.0, 0.0);
-  EXPECT_TRUE(comesTrue([&] { return stands(); }));
-  EXPECT_GT(angle(), -1.0) << "it halts at its limits anyway";
-}
-
-// Every sample is known to tf, to what a servo leaves the straight line by between two of those
-// that are told, and all of a scan come at once.
-TEST_F(HeadCommands, TurnTheHeadInTf) {
-  tf2_ros::Buffer buffer(ros::Duration(60.0));
-  tf2_ros::TransformListener listener(buffer);
-  Recorder<tf2_msgs::TFMessage> transforms("/tf");
-  Recorder<RangeScan> scans("/head/range_scan");
-  ASSERT_TRUE(
-      buffer.canTransform("active_sensor", "projection", ros::Time(0), ros::Duration(30.0)));
-  const RangeScan first = scans.next();
-  send(HeadCommand::RATE, 0.0, 0.8);
-  EXPECT_TRUE(comesTrue([&] { return angle() > 0.6; }));
-  send(HeadCommand::STOP, 0.0, 0.0);
-  std::size_t turning = 0;
-  for (const RangeScan& scan : scans.all()) {
-    if (scan.header.stamp <= first.header.stamp) continue;
-    turning += scan.head_angles.front() == scan.head_angles.back() ? 0 : 1;
-    for (std::size_t i = 0; i < scan.head_angles.size(); ++i) {
-      const ros::Time time =
-          scan.header.stamp + ros::Duration(static_cast<double>(i) * scan.time_increment);
-      // The last sample, as float seconds have it, may be a hair after the newest transform.
-      ASSERT_TRUE(buffer.canTransform("active_sensor", "head", time, ros::Duration(10.0)));
-      const auto pose =
-          bridge::toPose2(buffer.lookupTransform("active_sensor", "head", time).transform);
-      ASSERT_NEAR(pose.theta(), scan.head_angles[i], 6e-4);
-    }
-  }
-  EXPECT_GE(turning, 5U);
-  std::size_t most = 0;
-  for (const auto& message : transforms.all()) most = std::max(most, message.transforms.size());
-  EXPECT_GE(most, 10U);
-  const auto T_head_projection =
-      bridge::toPose2(buffer.lookupTransform("head", "projection", ros::Time(0)).transform);
-  EXPECT_NEAR(T_head_projection.x(), 0.05, 1e-12);
-  EXPECT_NEAR(T_head_projection.y(), -0.03, 1e-12);
-}
-
 TEST_F(SyncScanDriver, SaysNothingToTfWhereItShallNot) {
   Recorder<tf2_msgs::TFMessage> transforms("/tf");
   Recorder<sensor_msgs::JointState> joints("/mute/joint_states");
@@ -195,20 +106,6 @@ TEST_F(SyncScanDriver, SaysNothingToTfWhereItShallNot) {
       "mute", std::vector<std::string>{"_port:=" + folder_.path("mute"), "_publish_tf:=false"}));
   joints.atLeast(10);
   EXPECT_EQ(transforms.count(), 0U);
-}
-
-TEST_F(HeadCommands, AreRefusedByNameAndTheHeadStaysWhereItIs) {
-  send(HeadCommand::POSITION, 2.0, 0.0);
-  expectRefused("a position of 2");
-  send(HeadCommand::POSITION, std::numeric_limits<double>::quiet_NaN(), 0.0);
-  expectRefused("a position that is not finite");
-  send(HeadCommand::RATE, 0.0, 100.0);
-  expectRefused("a rate of 100");
-  send(HeadCommand::POSITION, 0.5, 0.0, "elbow");
-  expectRefused("'elbow'");
-  send(7, 0.0, 0.0);
-  expectRefused("an unknown mode 7");
-  EXPECT_EQ(angle(), 0.0);
 }
 
 // Whatever is at the port, the driver says so by name and goes on.
@@ -274,13 +171,8 @@ TEST_F(SyncScanDriver, MissingPermissionIsNamed) {
   expectStatus("locked", "no permission: " + folder_.path("locked"));
 }
 
-// Each in a namespace of its own: parameters stay with the master.
 std::string endOf(const std::string& parameters) {
-  static int number = 0;
-  const auto result = test::runProgram("sync_scan_driver",
-                                       "__ns:=ended" + std::to_string(++number) + " " + parameters);
-  EXPECT_EQ(result.status, 1);
-  return result.output;
+  return test::refusalOf("sync_scan_driver", parameters);
 }
 
 TEST_F(SyncScanDriver, WhatDoesNotFitEndsItAtTheStart) {

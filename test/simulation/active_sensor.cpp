@@ -6,10 +6,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
 
-#include "config_error.h"
 #include "sightline/lines/line_extractor.h"
 #include "sightline/simulation/simulation.h"
-#include "temporary_folder.h"
 
 namespace sightline::simulation {
 namespace {
@@ -111,64 +109,6 @@ TEST(ActiveSensor, APostMakesAMissingPartOnTheSideOfTheLens) {
   }
   EXPECT_EQ(missing_right, 0u);
   EXPECT_GT(missing_left, 5u);
-}
-
-TEST(SensorHead, TurnsAQuarterInHalfASecond) {
-  motion::SensorHead head({});
-  head.command({Mode::kPosition, geometry::radians(90.0), 0.0});
-  for (int i = 0; i < 1240; ++i) head.step(0.0004);
-  EXPECT_LT(head.angle(), geometry::radians(90.0));
-  for (int i = 0; i < 30; ++i) head.step(0.0004);
-  EXPECT_NEAR(head.angle(), geometry::radians(90.0), 1e-12);
-  EXPECT_EQ(head.rate(), 0.0);
-}
-
-TEST(SensorHead, StaysWithinItsLimitsAndSteps) {
-  const motion::HeadLimits limits;
-  motion::SensorHead head(limits);
-  head.command({Mode::kRate, 0.0, -3.0});
-  double least = 0.0;
-  for (int i = 0; i < 2500; ++i) {
-    head.step(0.0004);
-    least = std::min(least, head.angle());
-  }
-  EXPECT_NEAR(least, limits.lower, 1e-6);
-  EXPECT_NEAR(head.rate(), 0.0, 0.02);
-  head.command({Mode::kPosition, 0.5001, 0.0});
-  for (int i = 0; i < 2500; ++i) head.step(0.0004);
-  EXPECT_NEAR(head.angle(), 80 * limits.resolution, 1e-12);  // 0.5027 rad, the nearest step
-}
-
-TEST(SensorHead, KeepsARateAndStops) {
-  motion::SensorHead head({});
-  head.command({Mode::kRate, 0.0, 0.8});
-  for (int i = 0; i < 1250; ++i) head.step(0.0004);
-  EXPECT_NEAR(head.rate(), 0.8, 1e-12);
-  EXPECT_NEAR(head.angle(), 0.4, 0.02);
-  head.command({Mode::kStop, 0.0, 0.0});
-  for (int i = 0; i < 250; ++i) head.step(0.0004);
-  EXPECT_EQ(head.rate(), 0.0);
-  EXPECT_NEAR(head.angle(), head.limits().rounded(head.angle()), 1e-12);  // on a step
-}
-
-TEST(SensorHead, CountsOnlyStepsWithinItsLimits) {
-  motion::HeadLimits limits;
-  limits.upper = 1.5;  // between two steps
-  EXPECT_LT(limits.rounded(1.5), 1.5);
-  EXPECT_GT(limits.rounded(1.5), 1.5 - limits.resolution);
-  motion::SensorHead head(limits);
-  head.command({Mode::kPosition, 1.5, 0.0});
-  for (int i = 0; i < 2500; ++i) head.step(0.0004);
-  EXPECT_NEAR(head.angle(), limits.rounded(1.5), 1e-12);
-}
-
-TEST(SensorHead, DoesNothingThatItsLimitsForbid) {
-  motion::SensorHead head({});
-  head.command({Mode::kPosition, 2.0, 0.0});
-  head.command({Mode::kPosition, std::nan(""), 0.0});
-  head.command({Mode::kRate, 0.0, 50.0});
-  for (int i = 0; i < 250; ++i) head.step(0.0004);
-  EXPECT_EQ(head.angle(), 0.0);
 }
 
 // The walls of a room do not move, however the head turns while it looks.
@@ -304,49 +244,6 @@ TEST(ActiveSensor, HeadAngleJittersAsItsProfileSays) {
     }
   }
   EXPECT_NEAR(sum / count, 1.0, 4.0 * std::sqrt(2.0 / count) + 0.05);
-}
-
-TEST(ActiveSensorProfile, ShippedFileIsThePaperSensor) {
-  const auto shipped =
-      ActiveSensorProfile::readFile(SIGHTLINE_SOURCE_DIR "/config/sensors/synchronised_scan.yaml");
-  const ActiveSensorProfile built_in;
-  EXPECT_NEAR(shipped.sensor.intrinsics.vergence, built_in.sensor.intrinsics.vergence, 1e-15);
-  EXPECT_EQ(shipped.optics.lens_diameter, built_in.optics.lens_diameter);
-  EXPECT_NEAR(shipped.sensor.scan.scanPeriod(), 1.0 / 9.8, 0.001);
-}
-
-TEST(ActiveSensorProfile, TakesTheLimitsOfARobotDescription) {
-  ActiveSensorProfile profile;
-  driver::HeadJoint joint;
-  joint.limits.upper = 1.0;
-  joint.limits.max_rate = 2.0;
-  joint.scan_origin = profile.sensor.origin.position();
-  profile.takeHead(joint, "robot.urdf");
-  EXPECT_EQ(profile.head.upper, 1.0);
-  EXPECT_EQ(profile.head.max_rate, 2.0);
-  joint.scan_origin.x() += 0.01;
-  EXPECT_EQ(test::errorOf([&] { profile.takeHead(joint, "robot.urdf"); }).source(), "robot.urdf");
-}
-
-TEST(ActiveSensorProfile, NamesWhatIsWrong) {
-  const test::TemporaryFolder folder;
-  const auto faultOf = [&](const std::string& text) -> std::string {
-    const std::string path = folder.write("sensor.yaml", text);
-    return test::errorOf([&] { ActiveSensorProfile::readFile(path).calibrated(); }).what();
-  };
-  EXPECT_THAT(faultOf("optics: {rays: 0}"), testing::HasSubstr("sensor.yaml:1: optics.rays"));
-  EXPECT_THAT(faultOf("head: {lower: 1.0, upper: 0.5}"), testing::HasSubstr("is not below upper"));
-  EXPECT_THAT(faultOf("scan: {range_min: 3.0}"), testing::HasSubstr("is not below range_max"));
-  EXPECT_THAT(faultOf("sensor: \"\""), testing::HasSubstr("serial number"));
-  EXPECT_THAT(faultOf("calibration: nowhere.yaml"), testing::HasSubstr("nowhere.yaml"));
-  EXPECT_THAT(faultOf("scan: {field_of_view: 2.0}\norigin: {projected_vergence: 0.5}"),
-              testing::HasSubstr("turns the outermost beam"));
-  EXPECT_THAT(faultOf("scan: {min_current: 1e-12}"), testing::HasSubstr("the noise current"));
-  EXPECT_THAT(faultOf("rig: {nearest: 0.01}"), testing::HasSubstr("ahead of the scan's origin"));
-  EXPECT_THAT(faultOf("modelled_depths: {nearest: 0.01}"),
-              testing::HasSubstr("ahead of the scan's origin"));
-  EXPECT_THAT(faultOf("jitter: 1.0"), testing::HasSubstr("sensor.yaml:1: jitter: 1 is outside"));
-  EXPECT_THAT(faultOf("lens: 3"), testing::HasSubstr("lens"));
 }
 
 }  // namespace

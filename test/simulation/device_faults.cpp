@@ -1,11 +1,9 @@
-#include <chrono>
-#include <thread>
-
 #include <gtest/gtest.h>
 
 #include "config_error.h"
 #include "sightline/simulation/active_sensor_device.h"
 #include "sightline/simulation/device_faults.h"
+#include "simulation/port_test.h"
 #include "simulation/ramp_device.h"
 #include "temporary_folder.h"
 
@@ -89,10 +87,7 @@ TEST_F(DeviceFaultsTest, WordsThatMakeNoSenseAreNamed) {
 
 TEST_F(DeviceFaultsTest, WordsTakeEffect) {
   faults_.apply(" ; jitter 0.001;drift 100 ;; disconnect 0.05", "input");
-  for (int i = 0; i < 500 && device_.backSince() == 0; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_GT(device_.backSince(), 0);
+  EXPECT_TRUE(test::comesTrue([&] { return device_.backSince() > 0; }));
 }
 
 TEST(ActiveSensorDevice, MeasuresItsWorldAndTurnsWithinItsLimits) {

@@ -23,8 +23,9 @@
 
 namespace sightline::test {
 
+/// Whether a condition comes to hold within a minute.
 inline bool comesTrue(const std::function<bool()>& condition) {
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

@@ -77,9 +77,18 @@ TEST(EstimateNoiseCurrent, OfTable2) {
   EXPECT_THAT(result.output, HasSubstr("189.8 um nA"));
   const auto twice = runProgram("estimate_noise_current", table + " --detector-length 0.02");
   EXPECT_THAT(twice.output, HasSubstr("noise_current 1.811e-11 A"));
-  EXPECT_EQ(runProgram("estimate_noise_current", "").status, 2);
-  EXPECT_EQ(runProgram("estimate_noise_current", table + " --detector-length 0").status, 2);
-  EXPECT_EQ(runProgram("estimate_noise_current", "/none.csv").status, 1);
+}
+
+TEST(EstimateNoiseCurrent, SaysWhatIsWrong) {
+  const std::string table = SIGHTLINE_SOURCE_DIR "/config/calibration/table2.csv";
+  for (const std::string& arguments : {std::string(), table + " --detector-length 0"}) {
+    const auto result = runProgram("estimate_noise_current", arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_THAT(result.output, HasSubstr("usage: estimate_noise_current")) << arguments;
+  }
+  const auto missing = runProgram("estimate_noise_current", "/none.csv");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.output, HasSubstr("/none.csv: no such file"));
 }
 
 }  // namespace

@@ -39,6 +39,9 @@ TEST(Freiburg, IsTrackedThroughItsRooms) {
       logs::readTrajectory(temporary.path("out/rooms.tum")),
       logs::readRelations((folder / "fr079.relations").string()), {0.04, 0.0, 0.0});
   EXPECT_EQ(evaluation.output, logs::figures(errors));
+  ASSERT_TRUE(errors.short_term);
+  EXPECT_LT(errors.short_term->translation.mean, 0.06);
+  EXPECT_LT(errors.short_term->rotation.mean, 0.8);
   EXPECT_LT(errors.all->translation.mean, 0.20);
   EXPECT_LT(errors.all->rotation.mean, 2.0);
 }

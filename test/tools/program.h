@@ -9,7 +9,8 @@
 
 namespace sightline::test {
 
-/// Output of a program, on either channel, and its exit status.
+/// Output of a program, on either channel, and its exit status: 128 and the signal, as shells have
+/// it, where a signal ended it.
 struct ProgramResult {
   int status = 0;
   std::string output;
@@ -23,7 +24,8 @@ inline ProgramResult runCommand(const std::string& command) {
   while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe)) {
     result.output += buffer.data();
   }
-  result.status = WEXITSTATUS(pclose(pipe));
+  const int end = pclose(pipe);
+  result.status = WIFEXITED(end) ? WEXITSTATUS(end) : 128 + WTERMSIG(end);
   return result;
 }
 

@@ -15,7 +15,7 @@ test::ProgramResult emulate(const std::string& arguments, const std::string& scr
   const std::string said = folder.path("said");
   return test::runCommand(
       "{ { " + script + "; } | " SIGHTLINE_PROGRAMS "/sensor_emulator " + arguments + " > " + said +
-      " 2>&1 & for i in $(seq 1000); do test -s " + said + " && break; sleep 0.01; done; " +
+      " 2>&1 & for i in $(seq 6000); do test -s " + said + " && break; sleep 0.01; done; " +
       "kill $! 2> /dev/null; wait $!; status=$?; cat " + said + "; exit $status; }");
 }
 
