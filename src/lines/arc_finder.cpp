@@ -5,6 +5,7 @@
 
 #include "sightline/geometry/angle.h"
 #include "sightline/geometry/statistics.h"
+#include "sightline/lines/beam_motion.h"
 #include "sightline/lines/neighbour_beam.h"
 
 namespace sightline::lines {

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 
 #include "sightline/fitting/line_fit.h"
-#include "sightline/lines/motion_sum.h"
+#include "sightline/lines/beam_motion.h"
 
 namespace sightline::lines {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "sightline/geometry/angle.h"
+#include "sightline/lines/beam_motion.h"
 #include "sightline/lines/beam_residuals.h"
-#include "sightline/lines/motion_sum.h"
 
 namespace sightline::lines {
 

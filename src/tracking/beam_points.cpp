@@ -17,11 +17,18 @@ Eigen::Matrix2d jitterAt(const Eigen::Vector2d& point, const scan::MotionNoise& 
   return noise.jitter * across * across.transpose();
 }
 
-Eigen::Matrix3d baseTwistCovariance(const scan::Scan& scan, const Pose2& T_base_sensor) {
+// From coordinates of the sensor at the last beam to a twist of the base.
+Eigen::Matrix3d toBaseTwist(const scan::Scan& scan, const Pose2& T_base_sensor) {
   const Pose2 motion = scan.sensorMotion().empty() ? Pose2() : scan.sensorMotion().back();
-  const Eigen::Matrix3d to_base =
-      T_base_sensor.adjoint() * motion::coordinatesByStartTwist(motion).inverse();
-  return to_base * (scan.motion_noise.drift + scan.motion_noise.walk) * to_base.transpose();
+  return T_base_sensor.adjoint() * motion::coordinatesByStartTwist(motion).inverse();
+}
+
+void readMotionNoise(const scan::Scan& scan, const Pose2& T_base_sensor, Sweep& sweep) {
+  const scan::MotionNoise& noise = scan.motion_noise;
+  if (noise.isZero()) return;
+  const Eigen::Matrix3d to_base = toBaseTwist(scan, T_base_sensor);
+  sweep.walk = to_base * noise.walk * to_base.transpose();
+  sweep.motion_covariance = sweep.walk + to_base * noise.drift * to_base.transpose();
 }
 
 }  // namespace
@@ -31,9 +38,7 @@ Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor) {
   const auto& motion = scan.sensorMotion();
   const double duration = scan.duration();
   Sweep sweep;
-  if (!scan.motion_noise.isZero()) {
-    sweep.motion_covariance = baseTwistCovariance(scan, T_base_sensor);
-  }
+  readMotionNoise(scan, T_base_sensor, sweep);
   sweep.points.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i)) continue;
@@ -53,6 +58,7 @@ Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor) {
 
 void makeIsotropic(Sweep& sweep, double sigma) {
   sweep.motion_covariance.setZero();
+  sweep.walk.setZero();
   for (BeamPoint& point : sweep.points) {
     point.covariance = sigma * sigma * Eigen::Matrix2d::Identity();
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
+#include "sightline/tracking/motion_response.h"
 
 namespace sightline::tracking {
 
@@ -21,35 +21,18 @@ double varianceOf(double sigma) {
   return sigma * sigma;
 }
 
-// Response of a fit to the points that the motion of the sensor carries along, each by its share of
-// the sweep: the normal equations of the fit, with the points' displacement along the normal on
-// their right-hand side.
-Eigen::Matrix<double, 2, 3> motionJacobian(const std::vector<const BeamPoint*>& points,
-                                           const PolarLine& line) {
-  const Eigen::Vector2d normal = line.normal();
-  const Eigen::Vector2d along = line.direction();
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Eigen::Matrix<double, 2, 3> moved = Eigen::Matrix<double, 2, 3>::Zero();
-  for (const BeamPoint* point : points) {
-    const double weight = 1.0 / varianceOf(pointSigma(*point, normal));
-    const double position = along.dot(point->position);
-    const Eigen::Vector2d residual_by_line(-1.0, position);
-    const Eigen::RowVector3d residual_by_motion(normal.x(), normal.y(), -position);
-    information += weight * residual_by_line * residual_by_line.transpose();
-    moved += weight * point->sweep_ratio * residual_by_line * residual_by_motion;
-  }
-  return -information.inverse() * moved;
-}
-
 // Walls are not as straight as lines: what the residuals show beyond the sensor's noise counts as
 // noise.
-FittedLine describe(const fitting::LineFit& fit, const std::vector<const BeamPoint*>& points) {
+FittedLine describe(const fitting::LineFit& fit, const std::vector<const BeamPoint*>& points,
+                    const Eigen::Matrix3d& walk) {
   const double excess =
       fit.chi_square / static_cast<double>(std::max<std::size_t>(1, fit.degrees_of_freedom));
   FittedLine result;
   result.line = fit.line;
   result.line.covariance *= std::max(1.0, excess);
-  result.motion_jacobian = motionJacobian(points, fit.line);
+  const MotionResponse response(points, fit.line);
+  result.motion_jacobian = response.jacobian();
+  result.line.covariance += response.strayCovariance(walk);
   for (const BeamPoint* point : points) result.accepted_beams.push_back(point->beam);
   return result;
 }
@@ -86,7 +69,7 @@ void WallFinder::addMapUncertainty(const std::vector<const BeamPoint*>& points,
 }
 
 void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const Pose2& T_base_map,
-                         WallFit& result) const {
+                         const Eigen::Matrix3d& walk, WallFit& result) const {
   // Least squares over the beams near the line, which is moved to fit them until they stay the
   // same.
   PolarLine line = geometry::transform(T_base_map, wall.segment.line());
@@ -106,7 +89,7 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
   }
   result.refusal = refusalOf(wall_, near, line);
   if (result.refusal != WallRefusal::kNone) return;
-  result.fit = describe(fit, near);
+  result.fit = describe(fit, near, walk);
   addMapUncertainty(near, result.fit->line);
 }
 
@@ -128,7 +111,7 @@ std::vector<WallFit> WallFinder::find(const PoseFilter& predicted, const world::
     fits[i].wall = indices[i].wall;
     fits[i].gate = first[i].gate.size();
     fits[i].beams_in_gate = first[i].points.size();
-    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), fits[i]);
+    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), sweep.walk, fits[i]);
   }
   return fits;
 }

@@ -4,6 +4,7 @@
 
 #include "lines/motion_consistency.h"
 #include "numeric_jacobian.h"
+#include "sightline/lines/beam_motion.h"
 #include "sightline/lines/beam_residuals.h"
 #include "sightline/lines/line_extractor.h"
 #include "sightline/lines/sweep_noise.h"
@@ -138,10 +139,10 @@ TEST(MotionSum, WalkIsTheSumOverAllPairs) {
   scan::MotionNoise noise;
   noise.walk << 3.0, 0.5, 0.2, 0.5, 2.0, 0.1, 0.2, 0.1, 1.0;
   test::Gauss gauss(3);
-  MotionSum<2> sum;
-  std::vector<std::pair<double, MotionSum<2>::Response>> terms;
+  motion::MotionSum<2> sum;
+  std::vector<std::pair<double, motion::MotionSum<2>::Response>> terms;
   for (int i = 0; i < 40; ++i) {
-    MotionSum<2>::Response response;
+    motion::MotionSum<2>::Response response;
     for (int k = 0; k < 6; ++k) response(k % 2, k / 2) = gauss();
     terms.emplace_back(gauss.uniform(0.0, 1.0), response);
     sum.add(terms.back().first, response);

@@ -58,13 +58,16 @@ TEST(ReadSweep, MotionNoiseOfATurningHeadIsTheBases) {
   EXPECT_LT(test::relativeError<2>(of_point.covariance(), predicted), 0.03);
 }
 
-TEST(ReadSweep, WalkCountsAsDrift) {
+TEST(ReadSweep, WalkEndsLikeADriftOfItsCovariance) {
   const Pose2 motion(0.05, 0.01, 0.08);
   scan::Scan scan = threeBeams(motion, kBaseSensor);
   scan.motion_noise = motion::sweepNoise({}, motion, kBaseSensor);
   const Sweep walk = readSweep(scan, kBaseSensor);
   std::swap(scan.motion_noise.walk, scan.motion_noise.drift);
-  EXPECT_EQ(readSweep(scan, kBaseSensor).motion_covariance, walk.motion_covariance);
+  const Sweep drift = readSweep(scan, kBaseSensor);
+  EXPECT_TRUE(drift.motion_covariance.isApprox(walk.motion_covariance, 1e-12));
+  EXPECT_TRUE(walk.walk.isApprox(walk.motion_covariance, 1e-12));
+  EXPECT_TRUE(drift.walk.isZero());
   EXPECT_FALSE(walk.motion_covariance.isZero());
   EXPECT_DOUBLE_EQ(walk.points[1].sweep_ratio, 0.5);
 }

@@ -9,8 +9,8 @@
 #include "sightline/lines/arc_runs.h"
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/line_extractor_config.h"
-#include "sightline/lines/motion_sum.h"
 #include "sightline/lines/piece.h"
+#include "sightline/motion/motion_sum.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::lines {
@@ -46,7 +46,7 @@ class ArcFinder {
   ArcRuns runs_;
   fitting::ArcObservations observations_;
   std::vector<std::size_t> tangent_beams_;  // of the scan
-  MotionSum<3> motion_sum_;
+  motion::MotionSum<3> motion_sum_;
 };
 
 }  // namespace sightline::lines

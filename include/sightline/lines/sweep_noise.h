@@ -6,8 +6,8 @@
 
 #include "sightline/geometry/line_segment.h"
 #include "sightline/lines/beam_array.h"
-#include "sightline/lines/motion_sum.h"
 #include "sightline/lines/piece.h"
+#include "sightline/motion/motion_sum.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::lines {
@@ -45,7 +45,7 @@ class SweepNoise {
   const scan::Scan* scan_ = nullptr;
   const BeamArray* beams_ = nullptr;
   bool is_zero_ = true;
-  MotionSum<2> sum_;
+  motion::MotionSum<2> sum_;
 };
 
 }  // namespace sightline::lines

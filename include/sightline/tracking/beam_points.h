@@ -26,13 +26,14 @@ struct Sweep {
   /// Covariance of a twist of the base frame, ordered x, y, θ [m², m rad, rad²], by which the last
   /// beam is off; the beams before it by their share of the time. Zero where the motion is known.
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
+  /// Its part that is a random walk: between the first beam and the last it strays from the share
+  /// of the time by a Brownian bridge.
+  Eigen::Matrix3d walk = Eigen::Matrix3d::Zero();
 };
 
 /// Reads a scan. Its motion noise is taken for the base's: turned into a twist of the sensor's
 /// frame at the stamp it changes to the base frame by the adjoint, whatever a head did in between.
-/// `walk` is taken for a drift that ends with the same covariance: at a ratio s of the sweep's time
-/// it counts s² of the variance and not s. `jitter` widens each beam across its distance from the
-/// axis.
+/// `jitter` widens each beam across its distance from the axis.
 ///
 /// @param T_base_sensor  at the stamp of the scan
 Sweep readSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor);

@@ -27,7 +27,7 @@ class WallFinder {
   PoseFilter refineByHough(const PoseFilter& predicted, const Walls& walls,
                            const std::vector<GatedWall>& gated) const;
   void fitWall(const GatedWall& gated, const world::Wall& wall, const geometry::Pose2& T_base_map,
-               WallFit& result) const;
+               const Eigen::Matrix3d& walk, WallFit& result) const;
   void addMapUncertainty(const std::vector<const BeamPoint*>& points,
                          geometry::PolarLine& line) const;
 

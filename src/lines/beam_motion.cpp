@@ -1,4 +1,6 @@
-#include "sightline/lines/motion_sum.h"
+#include "sightline/lines/beam_motion.h"
+
+#include <algorithm>
 
 namespace sightline::lines {
 

@@ -1,0 +1,85 @@
+#include "sightline/tracking/motion_response.h"
+
+#include <gtest/gtest.h>
+
+#include "monte_carlo.h"
+#include "sightline/fitting/line_fit.h"
+#include "sightline/tracking/gated_wall.h"
+
+namespace sightline::tracking {
+namespace {
+
+constexpr int kPoints = 60;
+
+// A wall 2 m ahead, seen from the second to the last but one quarter of a sweep.
+std::vector<BeamPoint> wall() {
+  std::vector<BeamPoint> points;
+  for (int i = 0; i < kPoints; ++i) {
+    const double ratio = static_cast<double>(i) / (kPoints - 1);
+    BeamPoint point;
+    point.position = {2.0, 3.0 * ratio - 1.0};
+    point.covariance = 1e-6 * Eigen::Matrix2d::Identity();
+    point.sweep_ratio = 0.25 + 0.5 * ratio;
+    points.push_back(point);
+  }
+  return points;
+}
+
+std::vector<const BeamPoint*> pointersTo(const std::vector<BeamPoint>& points) {
+  std::vector<const BeamPoint*> pointers;
+  for (const BeamPoint& point : points) pointers.push_back(&point);
+  return pointers;
+}
+
+Eigen::Matrix3d walkCovariance() {
+  Eigen::Matrix3d walk;
+  walk << 4e-6, 1e-6, 2e-6, 1e-6, 2e-6, 0.0, 2e-6, 0.0, 9e-6;
+  return walk;
+}
+
+// Points as a base sees them that has walked; `end` is where the walk comes to at the last beam.
+std::vector<BeamPoint> walked(test::Gauss& gauss, Eigen::Vector3d& end) {
+  std::vector<BeamPoint> points = wall();
+  Eigen::Vector3d twist = Eigen::Vector3d::Zero();
+  double ratio = 0.0;
+  for (BeamPoint& point : points) {
+    twist += std::sqrt(point.sweep_ratio - ratio) * gauss(walkCovariance());
+    ratio = point.sweep_ratio;
+    const Eigen::Vector2d across(-point.position.y(), point.position.x());
+    point.position += twist.head<2>() + twist[2] * across;
+  }
+  end = twist + std::sqrt(1.0 - ratio) * gauss(walkCovariance());
+  return points;
+}
+
+TEST(MotionResponse, WalkMovesTheLineByItsEndAndStraysFromThatOnItsWay) {
+  const auto still = wall();
+  const geometry::PolarLine line{2.0, 0.0, Eigen::Matrix2d::Identity()};
+  const MotionResponse response(pointersTo(still), line);
+  test::Gauss gauss(3);
+  test::Moments<2> all;
+  test::Moments<2> strayed;
+  for (int draw = 0; draw < 20000; ++draw) {
+    Eigen::Vector3d end;
+    const auto points = walked(gauss, end);
+    const auto fit = fitting::refineLine(toFitPoints(pointersTo(points)), line);
+    ASSERT_TRUE(fit);
+    const Eigen::Vector2d moved(fit->line.rho - line.rho, fit->line.phi);
+    all.add(moved);
+    strayed.add(moved - response.jacobian() * end);
+  }
+  const Eigen::Matrix2d of_end =
+      response.jacobian() * walkCovariance() * response.jacobian().transpose();
+  const Eigen::Matrix2d stray = response.strayCovariance(walkCovariance());
+  EXPECT_LT(test::relativeError<2>(strayed.covariance(), stray), 0.04);
+  EXPECT_LT(test::relativeError<2>(all.covariance(), of_end + stray), 0.04);
+}
+
+TEST(MotionResponse, WithoutAWalkNothingStrays) {
+  const auto points = wall();
+  const MotionResponse response(pointersTo(points), {2.0, 0.0, Eigen::Matrix2d::Identity()});
+  EXPECT_TRUE(response.strayCovariance(Eigen::Matrix3d::Zero()).isZero(0.0));
+}
+
+}  // namespace
+}  // namespace sightline::tracking
