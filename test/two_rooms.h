@@ -131,7 +131,7 @@ class TwoRoomsDrive {
       auto finished = simulation_.step().sweeps;
       moveTurret();
       truth_.add(simulation_.time(), simulation_.robot().T_map_base());
-      transforms_.drive(simulation_.time(), slip() * simulation_.robot().odometry().pose().mean);
+      reportOdometry();
       for (auto& sweep : finished) take(sweep.scan);
       track();
     }
@@ -139,6 +139,12 @@ class TwoRoomsDrive {
   }
 
  private:
+  // At 50 Hz, as wheels do.
+  void reportOdometry() {
+    if (simulation_.time() % 20'000'000 != 0) return;
+    transforms_.drive(simulation_.time(), slip() * simulation_.robot().odometry().pose().mean);
+  }
+
   void moveTurret() {
     const std::int64_t time = simulation_.time();
     const auto T_base_sensor = simulation_.carrier().T_base_sensor(0, time);

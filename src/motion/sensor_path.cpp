@@ -9,7 +9,6 @@ using geometry::Pose2;
 
 namespace {
 
-constexpr double kStretch = 0.02;   // [s] of constant velocity, as odometry comes at 50 Hz
 constexpr std::size_t kMost = 256;  // stretches of a sweep, however long it is
 constexpr double kAtRest = 1e-9;    // [m, rad] of motion that is none
 

@@ -251,7 +251,8 @@ void ScanLocator::addMotionNoise(const ArrivedScan& arrived, std::int64_t lag,
   const Pose2 T_start_end =
       start && end ? geometry::between(*start, *end) : located.scan.sensorMotion().back();
   located.scan.motion_noise =
-      motion::sweepNoise(config_.sweep_noise, T_start_end, located.T_base_sensor.value_or(Pose2()));
+      motion::sweepNoise(config_.sweep_noise, T_start_end, located.T_base_sensor.value_or(Pose2()),
+                         arrived.scan.duration());
   addJitter(arrived, located);
 }
 

@@ -27,8 +27,8 @@ void readMotionNoise(const scan::Scan& scan, const Pose2& T_base_sensor, Sweep& 
   const scan::MotionNoise& noise = scan.motion_noise;
   if (noise.isZero()) return;
   const Eigen::Matrix3d to_base = toBaseTwist(scan, T_base_sensor);
-  sweep.walk = to_base * noise.walk * to_base.transpose();
-  sweep.motion_covariance = sweep.walk + to_base * noise.drift * to_base.transpose();
+  sweep.motion_noise.drift = to_base * noise.drift * to_base.transpose();
+  sweep.motion_noise.walk = to_base * noise.walk * to_base.transpose();
 }
 
 }  // namespace
@@ -57,8 +57,7 @@ Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor) {
 }
 
 void makeIsotropic(Sweep& sweep, double sigma) {
-  sweep.motion_covariance.setZero();
-  sweep.walk.setZero();
+  sweep.motion_noise = {};
   for (BeamPoint& point : sweep.points) {
     point.covariance = sigma * sigma * Eigen::Matrix2d::Identity();
   }

@@ -16,11 +16,12 @@ PoseFilter::PoseFilter(const motion::OdometryNoise& odometry, const geometry::Un
   covariance_(3, 3) = odometry.scale_sigma * odometry.scale_sigma;
 }
 
-void PoseFilter::beginSweep(const Eigen::Matrix3d& motion_covariance) {
-  covariance_.rightCols<3>().setZero();
-  covariance_.bottomRows<3>().setZero();
-  covariance_.bottomRightCorner<3, 3>() = motion_covariance;
-  sweep_heading_variance_ = motion_covariance(2, 2);
+void PoseFilter::beginSweep(const SweepNoise& motion_noise) {
+  constexpr int kErrors = 3 * kKnots;
+  covariance_.rightCols<kErrors>().setZero();
+  covariance_.bottomRows<kErrors>().setZero();
+  covariance_.bottomRightCorner<kErrors, kErrors>() = motion_noise.atKnots();
+  sweep_heading_variance_ = motion_noise.atEnd()(2, 2);
   motion_error_.setZero();
 }
 
@@ -34,7 +35,7 @@ void PoseFilter::predict(const motion::OdometryNoise& odometry, const Pose2& ste
   // motion than this odometry would have.
   const double known = noise(2, 2) > 0.0 ? sweep_heading_variance_ / noise(2, 2) : 0.0;
   const bool holds_sweep = known <= 1.0;
-  Eigen::Matrix<double, 4, 7> F = Eigen::Matrix<double, 4, 7>::Zero();
+  Eigen::Matrix<double, 4, kStates> F = Eigen::Matrix<double, 4, kStates>::Zero();
   F.leftCols<4>().setIdentity();
   F.topLeftCorner<3, 3>() = geometry::composeJacobianFirst(pose_, moved);
   F.block<2, 1>(0, 3) = pose_.rotation() * moved.translation() / scale_;
@@ -43,31 +44,31 @@ void PoseFilter::predict(const motion::OdometryNoise& odometry, const Pose2& ste
   covariance_.topLeftCorner<4, 4>() = predicted;
   covariance_.topLeftCorner<3, 3>() +=
       (holds_sweep ? 1.0 - known : 1.0) * G * noise * G.transpose();
-  pose_ = pose_ * (holds_sweep ? Pose2::exp(-motion_error_) * moved : moved);
-  beginSweep(Eigen::Matrix3d::Zero());
+  pose_ = pose_ * (holds_sweep ? Pose2::exp(-motion_error_.tail<3>()) * moved : moved);
+  beginSweep({});
 }
 
-PoseFilter::Innovation PoseFilter::innovation(
-    const PolarLine& measured_base, const PolarLine& wall_map,
-    const Eigen::Matrix<double, 2, 3>& motion_jacobian) const {
+PoseFilter::Innovation PoseFilter::innovation(const PolarLine& measured_base,
+                                              const PolarLine& wall_map,
+                                              const LineBySweepError& motion_jacobian) const {
   const LineInnovation line = compareLines(pose_, measured_base, wall_map);
   Innovation result;
   result.jacobian.setZero();
   result.jacobian.leftCols<3>() = line.pose_jacobian;
-  result.jacobian.rightCols<3>() = line.sense.asDiagonal() * motion_jacobian;
-  result.value = line.value - result.jacobian.rightCols<3>() * motion_error_;
+  result.jacobian.rightCols<3 * kKnots>() = line.sense.asDiagonal() * motion_jacobian;
+  result.value = line.value - result.jacobian.rightCols<3 * kKnots>() * motion_error_;
   result.covariance = result.jacobian * covariance_ * result.jacobian.transpose() + line.noise;
   result.nis = result.value.dot(result.covariance.inverse() * result.value);
   return result;
 }
 
 void PoseFilter::update(const Innovation& innovation) {
-  const Eigen::Matrix<double, 7, 2> gain =
+  const Eigen::Matrix<double, kStates, 2> gain =
       covariance_ * innovation.jacobian.transpose() * innovation.covariance.inverse();
-  const Eigen::Matrix<double, 7, 1> correction = gain * innovation.value;
+  const Eigen::Matrix<double, kStates, 1> correction = gain * innovation.value;
   pose_ = Pose2(pose_.coordinates() + correction.head<3>());
   scale_ += correction[3];
-  motion_error_ += correction.tail<3>();
+  motion_error_ += correction.tail<3 * kKnots>();
   covariance_ -= gain * innovation.covariance * gain.transpose();
   covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
 }

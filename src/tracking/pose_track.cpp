@@ -90,7 +90,7 @@ PoseTrack::Explanation PoseTrack::explainFrom(const PoseFilter& prior,
        finder.find(prior, context.map, wallsInSight(context, memory_.room()), sweep)) {
     explanation.walls.emplace_back(std::move(fit));
   }
-  explanation.filter.beginSweep(sweep.motion_covariance);
+  explanation.filter.beginSweep(sweep.motion_noise);
   applyWalls(context, explanation.filter, explanation.walls);
   explanation.agreement =
       agreementAt(context, input, explanation.filter.pose().mean, memory_.room(),

@@ -47,8 +47,7 @@ PoseFilter WallFinder::refineByHough(const PoseFilter& predicted, const Walls& w
     const bool is_enough = gated[i].points.size() >= static_cast<std::size_t>(wall_.min_beams);
     if (!peaks.walls[i] || !is_enough) continue;
     const PolarLine coarse = lineAt(*peaks.walls[i], gated[i].gate.predicted());
-    refined.update(
-        refined.innovation(coarse, walls[i]->segment.line(), Eigen::Matrix<double, 2, 3>::Zero()));
+    refined.update(refined.innovation(coarse, walls[i]->segment.line(), LineBySweepError::Zero()));
   }
   return refined;
 }
@@ -111,7 +110,7 @@ std::vector<WallFit> WallFinder::find(const PoseFilter& predicted, const world::
     fits[i].wall = indices[i].wall;
     fits[i].gate = first[i].gate.size();
     fits[i].beams_in_gate = first[i].points.size();
-    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), sweep.walk, fits[i]);
+    fitWall(second[i], *walls[i], refined.pose().mean.inverse(), sweep.motion_noise.walk, fits[i]);
   }
   return fits;
 }

@@ -50,25 +50,26 @@ TEST(ReadSweep, MotionNoiseOfATurningHeadIsTheBases) {
   }
   scan.motion_noise.drift = of_sensor.covariance();
   const Sweep sweep = readSweep(scan, kBaseSensor);
-  EXPECT_LT(test::relativeError<3>(of_base.covariance(), sweep.motion_covariance), 0.03);
+  EXPECT_LT(test::relativeError<3>(of_base.covariance(), sweep.motion_noise.atEnd()), 0.03);
   const Eigen::Vector2d point = sweep.points[2].position;
   Eigen::Matrix<double, 2, 3> by_twist;
   by_twist << 1.0, 0.0, -point.y(), 0.0, 1.0, point.x();
-  const Eigen::Matrix2d predicted = by_twist * sweep.motion_covariance * by_twist.transpose();
+  const Eigen::Matrix2d predicted = by_twist * sweep.motion_noise.atEnd() * by_twist.transpose();
   EXPECT_LT(test::relativeError<2>(of_point.covariance(), predicted), 0.03);
 }
 
 TEST(ReadSweep, WalkEndsLikeADriftOfItsCovariance) {
   const Pose2 motion(0.05, 0.01, 0.08);
   scan::Scan scan = threeBeams(motion, kBaseSensor);
-  scan.motion_noise = motion::sweepNoise({}, motion, kBaseSensor);
+  scan.motion_noise = motion::sweepNoise({}, motion, kBaseSensor, 0.1);
+  scan.motion_noise.walk += scan.motion_noise.drift;
+  scan.motion_noise.drift.setZero();
   const Sweep walk = readSweep(scan, kBaseSensor);
   std::swap(scan.motion_noise.walk, scan.motion_noise.drift);
   const Sweep drift = readSweep(scan, kBaseSensor);
-  EXPECT_TRUE(drift.motion_covariance.isApprox(walk.motion_covariance, 1e-12));
-  EXPECT_TRUE(walk.walk.isApprox(walk.motion_covariance, 1e-12));
-  EXPECT_TRUE(drift.walk.isZero());
-  EXPECT_FALSE(walk.motion_covariance.isZero());
+  EXPECT_TRUE(drift.motion_noise.drift.isApprox(walk.motion_noise.walk, 1e-12));
+  EXPECT_TRUE(drift.motion_noise.walk.isZero());
+  EXPECT_FALSE(walk.motion_noise.walk.isZero());
   EXPECT_DOUBLE_EQ(walk.points[1].sweep_ratio, 0.5);
 }
 
@@ -88,7 +89,7 @@ TEST(ReadSweep, JitterWidensBeamsAcrossTheirDistanceFromTheAxis) {
     }
     EXPECT_LT(test::relativeError<2>(moments.covariance(), sweep.points[i].covariance), 0.03);
   }
-  EXPECT_TRUE(sweep.motion_covariance.isZero());
+  EXPECT_TRUE(sweep.motion_noise.atEnd().isZero());
 }
 
 TEST(ReadSweep, IsotropicNoiseReplacesTheScans) {
@@ -96,7 +97,7 @@ TEST(ReadSweep, IsotropicNoiseReplacesTheScans) {
   scan.motion_noise.drift.setIdentity();
   Sweep sweep = readSweep(scan, kBaseSensor);
   makeIsotropic(sweep, 0.05);
-  EXPECT_TRUE(sweep.motion_covariance.isZero());
+  EXPECT_TRUE(sweep.motion_noise.atEnd().isZero());
   for (const BeamPoint& point : sweep.points) {
     EXPECT_TRUE(point.covariance.isApprox(0.0025 * Eigen::Matrix2d::Identity()));
   }

@@ -37,22 +37,48 @@ Eigen::Matrix3d walkCovariance() {
   return walk;
 }
 
-// Points as a base sees them that has walked; `end` is where the walk comes to at the last beam.
-std::vector<BeamPoint> walked(test::Gauss& gauss, Eigen::Vector3d& end) {
+// A walk of the base over a sweep, in the order of time.
+class Walk {
+ public:
+  explicit Walk(test::Gauss& gauss) : gauss_(gauss) {}
+
+  const Eigen::Vector3d& at(double ratio) {
+    for (; knot_ < kKnots && (knot_ + 1.0) / kKnots <= ratio; ++knot_) {
+      errors_.segment<3>(3 * knot_) = advance((knot_ + 1.0) / kKnots);
+    }
+    return advance(ratio);
+  }
+  const SweepError& atKnots() const { return errors_; }
+
+ private:
+  const Eigen::Vector3d& advance(double ratio) {
+    twist_ += std::sqrt(ratio - ratio_) * gauss_(walkCovariance());
+    ratio_ = ratio;
+    return twist_;
+  }
+
+  test::Gauss& gauss_;
+  Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();
+  double ratio_ = 0.0;
+  int knot_ = 0;
+  SweepError errors_ = SweepError::Zero();
+};
+
+// Points as a base sees them that has walked, and where the walk was at the knots.
+std::vector<BeamPoint> walked(test::Gauss& gauss, SweepError& errors) {
   std::vector<BeamPoint> points = wall();
-  Eigen::Vector3d twist = Eigen::Vector3d::Zero();
-  double ratio = 0.0;
+  Walk walk(gauss);
   for (BeamPoint& point : points) {
-    twist += std::sqrt(point.sweep_ratio - ratio) * gauss(walkCovariance());
-    ratio = point.sweep_ratio;
+    const Eigen::Vector3d twist = walk.at(point.sweep_ratio);
     const Eigen::Vector2d across(-point.position.y(), point.position.x());
     point.position += twist.head<2>() + twist[2] * across;
   }
-  end = twist + std::sqrt(1.0 - ratio) * gauss(walkCovariance());
+  walk.at(1.0);
+  errors = walk.atKnots();
   return points;
 }
 
-TEST(MotionResponse, WalkMovesTheLineByItsEndAndStraysFromThatOnItsWay) {
+TEST(MotionResponse, WalkMovesTheLineByItsKnotsAndStraysBetweenThem) {
   const auto still = wall();
   const geometry::PolarLine line{2.0, 0.0, Eigen::Matrix2d::Identity()};
   const MotionResponse response(pointersTo(still), line);
@@ -60,19 +86,20 @@ TEST(MotionResponse, WalkMovesTheLineByItsEndAndStraysFromThatOnItsWay) {
   test::Moments<2> all;
   test::Moments<2> strayed;
   for (int draw = 0; draw < 20000; ++draw) {
-    Eigen::Vector3d end;
-    const auto points = walked(gauss, end);
+    SweepError errors;
+    const auto points = walked(gauss, errors);
     const auto fit = fitting::refineLine(toFitPoints(pointersTo(points)), line);
     ASSERT_TRUE(fit);
     const Eigen::Vector2d moved(fit->line.rho - line.rho, fit->line.phi);
     all.add(moved);
-    strayed.add(moved - response.jacobian() * end);
+    strayed.add(moved - response.jacobian() * errors);
   }
-  const Eigen::Matrix2d of_end =
-      response.jacobian() * walkCovariance() * response.jacobian().transpose();
+  const SweepErrorCovariance at_knots =
+      SweepNoise{Eigen::Matrix3d::Zero(), walkCovariance()}.atKnots();
+  const Eigen::Matrix2d of_knots = response.jacobian() * at_knots * response.jacobian().transpose();
   const Eigen::Matrix2d stray = response.strayCovariance(walkCovariance());
   EXPECT_LT(test::relativeError<2>(strayed.covariance(), stray), 0.04);
-  EXPECT_LT(test::relativeError<2>(all.covariance(), of_end + stray), 0.04);
+  EXPECT_LT(test::relativeError<2>(all.covariance(), of_knots + stray), 0.04);
 }
 
 TEST(MotionResponse, WithoutAWalkNothingStrays) {

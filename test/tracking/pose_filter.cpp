@@ -12,7 +12,7 @@ namespace {
 using geometry::PolarLine;
 using geometry::Pose2;
 using geometry::UncertainPose2;
-using Motion = Eigen::Matrix<double, 2, 3>;
+using Motion = LineBySweepError;
 
 // The part of the tracker's settings that the filter takes.
 struct Settings {
@@ -125,10 +125,10 @@ TEST(PoseFilter, SharedMotionOfASweepIsNotAveragedAway) {
   const Settings config;
   const Eigen::Matrix3d motion = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
   PoseFilter filter(config.odometry, kStart);
-  filter.beginSweep(motion);
+  filter.beginSweep({motion, Eigen::Matrix3d::Zero()});
   const PolarLine wall = lineOf(4.0, 0.0, 0.01, 0.005);
-  Motion follows;
-  follows << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+  Motion follows = Motion::Zero();
+  follows.rightCols<3>() << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
   for (int i = 0; i < 100; ++i) {
     PolarLine measured = geometry::transform(filter.pose().mean.inverse(), wall);
     measured.covariance = wall.covariance;
@@ -150,8 +150,8 @@ TEST(PoseFilter, PredictionIsConsistentWithWhatTheSweepToldOfTheMotion) {
   const Eigen::Matrix3d to_twist = motion::coordinatesByStartTwist(half).inverse();
   const Eigen::Matrix3d sweep = to_twist * half_noise * to_twist.transpose();
   const PolarLine walls[] = {lineOf(4.0, 0.1), lineOf(3.0, 1.8)};
-  Motion follows;
-  follows << 0.5, 0.2, 1.0, 0.0, 0.0, 0.5;
+  Motion follows = Motion::Zero();
+  follows.rightCols<3>() << 0.5, 0.2, 1.0, 0.0, 0.0, 0.5;
   test::Gauss gauss(6);
   double sum = 0.0;
   constexpr int kRobots = 4000;
@@ -159,10 +159,10 @@ TEST(PoseFilter, PredictionIsConsistentWithWhatTheSweepToldOfTheMotion) {
     const Eigen::Vector3d motion_error = gauss(sweep);
     const Pose2 truth(kStart.mean.coordinates() + gauss(kStart.covariance));
     PoseFilter filter(odometry, kStart);
-    filter.beginSweep(sweep);
+    filter.beginSweep({sweep, Eigen::Matrix3d::Zero()});
     for (const PolarLine& wall : walls) {
       PolarLine measured = geometry::transform(truth.inverse(), wall);
-      const Eigen::Vector2d moved = follows * motion_error;
+      const Eigen::Vector2d moved = follows.rightCols<3>() * motion_error;
       measured.rho += gauss(0.002) + moved[0];
       measured.phi += gauss(0.001) + moved[1];
       measured.covariance = lineOf(0, 0, 0.002, 0.001).covariance;

@@ -13,9 +13,12 @@ namespace sightline::motion {
 /// nothing where it is not known.
 using PoseAfter = std::function<std::optional<geometry::Pose2>(double)>;
 
+/// Longest time over which a velocity is taken as constant [s]: odometry comes at 50 Hz.
+constexpr double kStretch = 0.02;
+
 /// Pose at each beam, in the frame at the stamp, of something whose path is known: of constant body
-/// velocity over each stretch of at most 20 ms. Empty where it stood still or all beams are taken
-/// at once; nothing where the path is not known from the stamp to the last beam.
+/// velocity over each stretch of at most kStretch. Empty where it stood still or all beams are
+/// taken at once; nothing where the path is not known from the stamp to the last beam.
 std::optional<std::vector<geometry::Pose2>> sweepAlong(const PoseAfter& path,
                                                        const scan::ScanGeometry& geometry);
 

@@ -14,13 +14,16 @@ namespace sightline::motion {
 Eigen::Matrix3d coordinatesByStartTwist(const geometry::Pose2& motion);
 
 /// Noise of odometry in a sensor's motion during a sweep in which its carrier moved, and the sensor
-/// stood still on it: a walk, since the errors of odometry are random walks. The error of the scale
-/// is left out: an estimator of poses has it as a state.
+/// stood still on it. The errors of odometry are random walks, of which each stretch of constant
+/// velocity (kStretch) is one step: in a sweep of n stretches 1/n of the covariance is a drift, and
+/// the rest a walk, which gives the mean variance within the sweep that such steps have. The error
+/// of the scale is left out: an estimator of poses has it as a state.
 ///
 /// @param noise             of the carrier's odometry
 /// @param T_start_end_base  carrier's motion from the first beam to the last, as reported
 /// @param T_base_sensor     mounting of the sensor at the first beam
+/// @param duration          time from the first beam to the last [s]
 scan::MotionNoise sweepNoise(const OdometryNoise& noise, const geometry::Pose2& T_start_end_base,
-                             const geometry::Pose2& T_base_sensor);
+                             const geometry::Pose2& T_base_sensor, double duration);
 
 }  // namespace sightline::motion

@@ -7,6 +7,7 @@
 
 #include "sightline/geometry/pose2.h"
 #include "sightline/scan/scan.h"
+#include "sightline/tracking/sweep_error.h"
 
 namespace sightline::tracking {
 
@@ -23,12 +24,7 @@ struct BeamPoint {
 /// The valid beams of a scan, and what is not known of the motion from the first beam to the last.
 struct Sweep {
   std::vector<BeamPoint> points;
-  /// Covariance of a twist of the base frame, ordered x, y, θ [m², m rad, rad²], by which the last
-  /// beam is off; the beams before it by their share of the time. Zero where the motion is known.
-  Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
-  /// Its part that is a random walk: between the first beam and the last it strays from the share
-  /// of the time by a Brownian bridge.
-  Eigen::Matrix3d walk = Eigen::Matrix3d::Zero();
+  SweepNoise motion_noise;  ///< zero where the motion is known
 };
 
 /// Reads a scan. Its motion noise is taken for the base's: turned into a twist of the sensor's

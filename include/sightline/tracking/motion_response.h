@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -7,6 +8,7 @@
 #include "sightline/geometry/polar_line.h"
 #include "sightline/motion/motion_sum.h"
 #include "sightline/tracking/beam_points.h"
+#include "sightline/tracking/sweep_error.h"
 
 namespace sightline::tracking {
 
@@ -17,16 +19,16 @@ class MotionResponse {
  public:
   MotionResponse(const std::vector<const BeamPoint*>& points, const geometry::PolarLine& line);
 
-  /// ∂(ρ, φ) / ∂(twist of the base frame over the sweep, ordered x, y, θ), of which each point
-  /// moves by its share of the sweep's time.
-  const Eigen::Matrix<double, 2, 3>& jacobian() const { return jacobian_; }
-  /// Covariance of (ρ, φ) by what a random walk strays from that share on its way, `walk` being its
-  /// covariance at the end of the sweep.
+  const LineBySweepError& jacobian() const { return jacobian_; }
+  /// Covariance of (ρ, φ) by what a random walk strays from the straight way between two knots,
+  /// `walk` being its covariance at the end of the sweep.
   Eigen::Matrix2d strayCovariance(const Eigen::Matrix3d& walk) const;
 
  private:
-  Eigen::Matrix<double, 2, 3> jacobian_;
-  motion::MotionSum<2> sum_;
+  void add(double sweep_ratio, const Eigen::Matrix<double, 2, 3>& response);
+
+  LineBySweepError jacobian_ = LineBySweepError::Zero();
+  std::array<motion::MotionSum<2>, kKnots> between_;  // the start or a knot, and the next
 };
 
 }  // namespace sightline::tracking

@@ -7,6 +7,7 @@
 #include "sightline/geometry/polar_line.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/motion/odometry_noise.h"
+#include "sightline/tracking/sweep_error.h"
 
 namespace sightline::tracking {
 
@@ -15,23 +16,26 @@ namespace sightline::tracking {
 /// scale as a state). A value: copies are independent.
 class PoseFilter {
  public:
+  /// Of these the error of the sweep's motion is the last part.
+  static constexpr int kStates = 4 + 3 * kKnots;
+
   PoseFilter(const motion::OdometryNoise& odometry, const geometry::UncertainPose2& start);
 
   /// Moves by a step of odometry, given in the body frame at its start.
   void predict(const motion::OdometryNoise& odometry, const geometry::Pose2& step);
-  /// Begins a scan: `motion_covariance` is of the base frame's twist over its sweep, as in Sweep.
-  void beginSweep(const Eigen::Matrix3d& motion_covariance);
+  /// Begins a scan, of whose motion so much is not known.
+  void beginSweep(const SweepNoise& motion_noise);
   /// Measured line of the base frame against its wall in the map, to first order.
   struct Innovation {
-    Eigen::Vector2d value;                 ///< (ρ, φ) measured less predicted, heading wrapped
-    Eigen::Matrix2d covariance;            ///< S, of the value
-    Eigen::Matrix<double, 2, 7> jacobian;  ///< of the prediction by the state
+    Eigen::Vector2d value;       ///< (ρ, φ) measured less predicted, heading wrapped
+    Eigen::Matrix2d covariance;  ///< S, of the value
+    Eigen::Matrix<double, 2, kStates> jacobian;  ///< of the prediction by the state
     double nis = 0.0;
   };
-  /// `motion_jacobian` is of the measured line by the twist of the base frame over the sweep.
+  /// `motion_jacobian` is of the measured line.
   Innovation innovation(const geometry::PolarLine& measured_base,
                         const geometry::PolarLine& wall_map,
-                        const Eigen::Matrix<double, 2, 3>& motion_jacobian) const;
+                        const LineBySweepError& motion_jacobian) const;
   /// Takes the innovation in (jensfelt eq. 9).
   void update(const Innovation& innovation);
   /// Adds an independent error of these standard deviations [m, rad].
@@ -46,11 +50,12 @@ class PoseFilter {
  private:
   geometry::Pose2 pose_;
   double scale_;
-  // The twist by which the reported motion over the sweep is off, as estimated; and the variance of
-  // its heading before the scan was taken in.
-  Eigen::Vector3d motion_error_ = Eigen::Vector3d::Zero();
+  // The error of the sweep's motion as estimated, and the variance of its heading at the last beam
+  // before the scan was taken in.
+  SweepError motion_error_ = SweepError::Zero();
   double sweep_heading_variance_ = 0.0;
-  Eigen::Matrix<double, 7, 7> covariance_ = Eigen::Matrix<double, 7, 7>::Zero();
+  Eigen::Matrix<double, kStates, kStates> covariance_ =
+      Eigen::Matrix<double, kStates, kStates>::Zero();
 };
 
 }  // namespace sightline::tracking

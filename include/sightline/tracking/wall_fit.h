@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "sightline/geometry/polar_line.h"
+#include "sightline/tracking/sweep_error.h"
 
 namespace sightline::tracking {
 
@@ -32,8 +33,7 @@ enum class WallRefusal {
 struct FittedLine {
   geometry::PolarLine line;                 ///< in the base frame
   std::vector<std::size_t> accepted_beams;  ///< that it was fitted to
-  /// ∂(ρ, φ) / ∂(twist of the base frame over the sweep, ordered x, y, θ).
-  Eigen::Matrix<double, 2, 3> motion_jacobian = Eigen::Matrix<double, 2, 3>::Zero();
+  LineBySweepError motion_jacobian = LineBySweepError::Zero();
 };
 
 /// Findings on one wall in one scan.
