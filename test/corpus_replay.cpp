@@ -9,9 +9,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
+// The seeds' folder.
+extern const char* const kCorpus;
+
 TEST(Corpus, IsReadWithoutFault) {
   int seeds = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(SIGHTLINE_CORPUS)) {
+  for (const auto& entry : std::filesystem::directory_iterator(kCorpus)) {
     SCOPED_TRACE(entry.path());
     std::ifstream file(entry.path(), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};

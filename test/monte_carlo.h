@@ -3,10 +3,13 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 namespace sightline::test {
+
+/// What the decompositions of monte_carlo.cpp take: of any size, so that they are compiled once.
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 /// Seeded normal noise.
 class Gauss {
@@ -19,11 +22,7 @@ class Gauss {
   template <int kSize>
   Eigen::Matrix<double, kSize, 1> operator()(
       const Eigen::Matrix<double, kSize, kSize>& covariance) {
-    const auto factor = covariance.ldlt();
-    Eigen::Matrix<double, kSize, 1> white;
-    for (int i = 0; i < kSize; ++i)
-      white[i] = (*this)(std::sqrt(std::max(0.0, factor.vectorD()[i])));
-    return factor.transpositionsP().transpose() * (factor.matrixL() * white);
+    return correlated(covariance);
   }
 
   double uniform(double from, double to) {
@@ -31,6 +30,8 @@ class Gauss {
   }
 
  private:
+  SmallVector correlated(const SmallMatrix& covariance);
+
   std::mt19937_64 engine_;
   std::normal_distribution<double> normal_;
 };
@@ -67,11 +68,13 @@ double relativeError(const Eigen::Matrix<double, kSize, kSize>& sampled,
   return (sampled - expected).cwiseQuotient(sigma * sigma.transpose()).cwiseAbs().maxCoeff();
 }
 
+double normalisedSquareOf(const SmallVector& error, const SmallMatrix& covariance);
+
 /// Squared error in units of the covariance (NEES).
 template <int kSize>
 double normalisedSquare(const Eigen::Matrix<double, kSize, 1>& error,
                         const Eigen::Matrix<double, kSize, kSize>& covariance) {
-  return error.dot(covariance.ldlt().solve(error));
+  return normalisedSquareOf(error, covariance);
 }
 
 /// Counts that are to be expected of trials.
