@@ -36,7 +36,7 @@ tf2_msgs::TFMessage mountingTransforms(const pipeline::EstimatorsConfig& config)
   tf2_msgs::TFMessage message;
   for (const auto& [frame, T_base_sensor] : config.mountings) {
     message.transforms.push_back(
-        toTransformMessage(0, config.frames.base, withoutSlash(frame), T_base_sensor));
+        toTransformMessage(config.frames.base, withoutSlash(frame), 0, T_base_sensor));
   }
   return message;
 }

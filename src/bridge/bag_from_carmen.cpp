@@ -62,16 +62,6 @@ nav_msgs::Odometry odometryMessage(const logs::CarmenOdometry& odometry, const r
   return message;
 }
 
-geometry_msgs::TransformStamped transformMessage(const geometry::Pose2& pose, const char* parent,
-                                                 const char* child, const ros::Time& stamp) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform = toTransform(pose);
-  return message;
-}
-
 class CarmenBag {
  public:
   CarmenBag(const std::string& path, const CarmenBagOptions& options, double front_laser_max)
@@ -91,8 +81,9 @@ class CarmenBag {
   void write(const logs::CarmenOdometry& odometry) {
     const ros::Time stamp = timeOf(stampOf(odometry));
     tf2_msgs::TFMessage transforms;
-    transforms.transforms = {transformMessage(odometry.robot, kOdomFrame, kBaseFrame, stamp),
-                             transformMessage(T_base_laser_, kBaseFrame, kLaserFrame, stamp)};
+    transforms.transforms = {
+        toTransformMessage(kOdomFrame, kBaseFrame, nanoseconds(stamp), odometry.robot),
+        toTransformMessage(kBaseFrame, kLaserFrame, nanoseconds(stamp), T_base_laser_)};
     bag_.write("/tf", stamp, transforms);
     bag_.write("/odom", stamp, odometryMessage(odometry, stamp));
   }

@@ -31,7 +31,7 @@ std::string OdometryOutput::write(const pipeline::Estimates& estimates) {
   if (!publish_tf_) return "";
   tf2_msgs::TFMessage transforms;
   transforms.transforms = {
-      toTransformMessage(update->stamp, frames_.odom, frames_.base, update->pose.mean)};
+      toTransformMessage(frames_.odom, frames_.base, update->stamp, update->pose.mean)};
   transforms_.write(transforms);
   return "";
 }

@@ -117,17 +117,6 @@ Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
   return result;
 }
 
-geometry_msgs::TransformStamped toTransformMessage(std::int64_t stamp, const std::string& parent,
-                                                   const std::string& child,
-                                                   const geometry::Pose2& T_parent_child) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = timeOf(stamp);
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform = toTransform(T_parent_child);
-  return message;
-}
-
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }

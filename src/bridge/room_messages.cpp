@@ -51,12 +51,7 @@ TrackerStatus toStatusMessage(const tracking::TrackerUpdate& update, const world
 geometry_msgs::TransformStamped toMapOdom(const tracking::TrackerUpdate& update,
                                           const std::string& map_frame,
                                           const std::string& odom_frame) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = timeOf(update.stamp);
-  message.header.frame_id = map_frame;
-  message.child_frame_id = odom_frame;
-  message.transform = toTransform(update.T_map_odom);
-  return message;
+  return toTransformMessage(map_frame, odom_frame, update.stamp, update.T_map_odom);
 }
 
 nav_msgs::OccupancyGrid toGridMessage(const world::Occupancy& grid, const std::string& map_frame) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sightline/geometry/isometry.h"
+
 namespace sightline::simulation {
 
 namespace {
@@ -91,7 +93,7 @@ BodyMotion Carrier::bodyMotion(std::int64_t time) const {
 }
 
 Eigen::Isometry3d Carrier::inMap(std::int64_t time) const {
-  const Eigen::Isometry3d T_map_base = inSpace(this->T_map_base(time));
+  const Eigen::Isometry3d T_map_base = geometry::inSpace(this->T_map_base(time));
   return gait_ ? T_map_base * bodyMotion(time).outOfPlane(gait_config_.height) : T_map_base;
 }
 

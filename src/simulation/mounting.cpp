@@ -20,11 +20,4 @@ Eigen::Isometry3d Mounting::T_base_sensor() const {
          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
 }
 
-Eigen::Isometry3d inSpace(const geometry::Pose2& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.linear().topLeftCorner<2, 2>() = pose.rotation();
-  result.translation().head<2>() = pose.translation();
-  return result;
-}
-
 }  // namespace sightline::simulation

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sightline/geometry/isometry.h"
+
 namespace sightline::simulation {
 
 namespace {
@@ -36,7 +38,8 @@ Eigen::Isometry3d Scanner::T_base_sensor(std::int64_t time) const {
 }
 
 scan::Scan Scanner::sweep(const world::World& world, std::int64_t stamp, const PoseAt& T_map_base) {
-  return sweepInSpace(world, stamp, [&](std::int64_t time) { return inSpace(T_map_base(time)); });
+  return sweepInSpace(world, stamp,
+                      [&](std::int64_t time) { return geometry::inSpace(T_map_base(time)); });
 }
 
 scan::Scan Scanner::sweepInSpace(const world::World& world, std::int64_t stamp,

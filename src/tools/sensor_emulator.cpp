@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "program/program.h"
+#include "sightline/geometry/isometry.h"
 #include "sightline/simulation/active_sensor_device.h"
 #include "sightline/simulation/device_faults.h"
 #include "sightline/simulation/scanner.h"
@@ -111,7 +112,7 @@ int emulate(const Job& job, int signals) {
   simulation::EmulatedDevice device(
       job.port, simulation::firmwareOf(profile),
       std::make_unique<simulation::ActiveSensorDevice>(profile, world::World::readFile(job.world),
-                                                       simulation::inSpace(pose), job.seed),
+                                                       geometry::inSpace(pose), job.seed),
       job.seed);
   simulation::DeviceFaults faults(device);
   if (job.faults) faults.apply(*job.faults, "--faults");

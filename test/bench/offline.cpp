@@ -2,7 +2,8 @@
 //
 // offline.realtime_factor: seconds of scans in the log fr079 over the seconds that `offline` takes
 // to run lines and rooms over its bag, start, reading and writing included; the best of three runs.
-// offline.peak_mb: the most memory it held, in 10⁶ bytes.
+// offline.peak_mb: the most memory it held, in 10⁶ bytes. offline.limits: all estimators on 10 s of
+// simulated scans, once with each setting at either end of its range, and the slowest of these.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "offline/every_limit.h"
 #include "sightline/logs/carmen_log.h"
 #include "temporary_folder.h"
 
@@ -77,6 +79,7 @@ void measure(const std::string& log) {
 }  // namespace
 
 int main() {
+  bench::printLimits();
   const char* data = std::getenv("SIGHTLINE_DATA");
   const auto log = std::filesystem::path(data ? data : "") / "fr079.clf.gz";
   if (!data || !std::filesystem::exists(log)) {

@@ -39,7 +39,7 @@ class BagFeedTest : public testing::Test {
   void transformAt(double time, const char* parent, const char* child, const Pose2& pose,
                    const char* topic = "/tf") {
     tf2_msgs::TFMessage message;
-    message.transforms = {toTransformMessage(nanoseconds(ros::Time(time)), parent, child, pose)};
+    message.transforms = {toTransformMessage(parent, child, nanoseconds(ros::Time(time)), pose)};
     bag_.write(topic, ros::Time(time), message);
   }
 

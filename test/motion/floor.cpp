@@ -1,4 +1,5 @@
 #include "sightline/motion/floor.h"
+#include "sightline/geometry/isometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ world::World corridor() {
 Eigen::Isometry3d leaning(const Pose2& T_map_base, const geometry::Attitude& attitude) {
   simulation::BodyMotion motion;
   motion.attitude = attitude;
-  return simulation::inSpace(T_map_base) * motion.outOfPlane(1.2);
+  return geometry::inSpace(T_map_base) * motion.outOfPlane(1.2);
 }
 
 simulation::Mounting atBreastHeight() {
@@ -175,7 +176,7 @@ Calls walk(bool nods, std::uint64_t seed) {
       for (std::size_t i = 0; i < scan.beams(); ++i) {
         const auto time = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets()[i]);
         const Eigen::Isometry3d T_map_scanner =
-            simulation::inSpace(simulation.carrier().T_map_base(time)) *
+            geometry::inSpace(simulation.carrier().T_map_base(time)) *
             simulation.carrier().bodyMotion(time).outOfPlane(1.2) *
             Eigen::Translation3d(0.0, 0.0, 1.2);
         const Eigen::Vector3d ray(scan.geometry()->cosines()[i], scan.geometry()->sines()[i], 0.0);

@@ -19,6 +19,7 @@
 #include "nodes/comes_true.h"
 #include "nodes/diagnostics.h"
 #include "sightline/RangeScan.h"
+#include "sightline/geometry/isometry.h"
 #include "sightline/simulation/active_sensor_device.h"
 #include "sightline/simulation/emulated_device.h"
 #include "sightline/simulation/scanner.h"
@@ -60,7 +61,7 @@ inline std::unique_ptr<simulation::ActiveSensorDevice> deviceInLivingRoom() {
   return std::make_unique<simulation::ActiveSensorDevice>(
       simulation::ActiveSensorProfile{},
       world::World::readFile(SIGHTLINE_SOURCE_DIR "/config/worlds/living_room.yaml"),
-      simulation::inSpace({-1.5, 1.0, 2.5}), 1);
+      geometry::inSpace({-1.5, 1.0, 2.5}), 1);
 }
 
 /// Emulated devices, the drivers that look for them, and what is said of them.

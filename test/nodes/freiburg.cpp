@@ -13,13 +13,13 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/LaserScan.h>
-#include <std_srvs/SetBool.h>
 
-#include "nodes/connections.h"
 #include "nodes/launch.h"
+#include "nodes/player.h"
 #include "nodes/recorder.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
+#include "sightline/geometry/angle.h"
 #include "sightline/logs/trajectory.h"
 #include "temporary_folder.h"
 #include "tools/program.h"
@@ -90,24 +90,13 @@ class Freiburg : public testing::Test {
     const Launch launch(std::string("replay.launch delay:=0.5 rate:=") + kRate +
                         " play_arguments:='--pause --keep-alive --duration=" + kPlayed +
                         "' bag:=" + bag_ + " config:=" + kConfig);
-    play();
+    test::resumePlayer({"/scan", "/tf", "/clock"});
     Poses poses;
     for (const auto& message : recorder.atLeast(wanted)) {
       const auto stamp = bridge::nanoseconds(message.header.stamp);
       if (stamp < end_) poses.emplace(stamp, bridge::toPose2(message.pose.pose));
     }
     return poses;
-  }
-
-  static void play() {
-    const std::string pause = "player/pause_playback";
-    ASSERT_TRUE(ros::service::waitForService(pause, 60000));
-    for (const char* topic : {"/scan", "/tf", "/clock"}) {
-      test::waitForConnection("/player", topic, "/estimators");
-    }
-    std_srvs::SetBool resume;
-    resume.request.data = false;
-    ASSERT_TRUE(ros::service::call(pause, resume) && resume.response.success);
   }
 
   test::TemporaryFolder folder_;
@@ -128,8 +117,8 @@ TEST_F(Freiburg, LivePosesAreThoseOfOffline) {
     const auto found = live.find(stamp);
     if (found == live.end()) continue;
     const geometry::Pose2 difference = geometry::between(pose, found->second);
-    EXPECT_LT(std::hypot(difference.x(), difference.y()), 0.02) << stamp;
-    EXPECT_LT(std::abs(difference.theta()), 0.2 * M_PI / 180.0) << stamp;
+    EXPECT_LT(std::hypot(difference.x(), difference.y()), 1e-3) << stamp;
+    EXPECT_LT(std::abs(difference.theta()), geometry::radians(0.01)) << stamp;
   }
 }
 

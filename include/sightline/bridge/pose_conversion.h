@@ -36,10 +36,6 @@ boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance);
 Eigen::Matrix3d toCovariance3(const boost::array<double, 36>& covariance);
 
 Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform);
-geometry_msgs::TransformStamped toTransformMessage(std::int64_t stamp, const std::string& parent,
-                                                   const std::string& child,
-                                                   const geometry::Pose2& T_parent_child);
-
 /// A frame's name without the leading slash that tf of old wrote.
 std::string withoutSlash(const std::string& frame);
 

@@ -21,7 +21,4 @@ struct Mounting {
   Eigen::Isometry3d T_base_sensor() const;
 };
 
-/// A pose of the plane as one in space, upright on the floor.
-Eigen::Isometry3d inSpace(const geometry::Pose2& pose);
-
 }  // namespace sightline::simulation

@@ -10,6 +10,7 @@
 
 #include "building.h"
 #include "sightline/config/node.h"
+#include "sightline/geometry/isometry.h"
 #include "sightline/pipeline/scan_odometry.h"
 #include "sightline/simulation/simulation.h"
 
@@ -147,7 +148,7 @@ class BodyWornWalk {
   bool endsOnFloor(const scan::Scan& scan, std::size_t beam) const {
     const auto time = scan.stamp + std::llround(1e9 * scan.geometry()->timeOffsets()[beam]);
     const Eigen::Isometry3d T_map_sensor =
-        simulation::inSpace(simulation_.carrier().T_map_base(time)) *
+        geometry::inSpace(simulation_.carrier().T_map_base(time)) *
         simulation_.carrier().bodyMotion(time).outOfPlane(kHeight) *
         Eigen::Translation3d(0.0, 0.0, kHeight);
     const Eigen::Vector3d direction(scan.geometry()->cosines()[beam],
