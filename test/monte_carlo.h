@@ -7,9 +7,11 @@
 
 namespace sightline::test {
 
-/// What the decompositions of monte_carlo.cpp take: of any size, so that they are compiled once.
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+/// What the decompositions of monte_carlo.cpp take: of any size up to this, so that they are
+/// compiled once.
+constexpr int kMostRows = 8;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
 
 /// Seeded normal noise.
 class Gauss {
@@ -22,6 +24,7 @@ class Gauss {
   template <int kSize>
   Eigen::Matrix<double, kSize, 1> operator()(
       const Eigen::Matrix<double, kSize, kSize>& covariance) {
+    static_assert(kSize <= kMostRows);
     return correlated(covariance);
   }
 
@@ -74,6 +77,7 @@ double normalisedSquareOf(const SmallVector& error, const SmallMatrix& covarianc
 template <int kSize>
 double normalisedSquare(const Eigen::Matrix<double, kSize, 1>& error,
                         const Eigen::Matrix<double, kSize, kSize>& covariance) {
+  static_assert(kSize <= kMostRows);
   return normalisedSquareOf(error, covariance);
 }
 

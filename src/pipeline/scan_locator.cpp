@@ -17,7 +17,7 @@ using geometry::Pose2;
 
 namespace {
 
-struct Constants {
+constexpr struct {
   // Silence after which a source is not waited for [ns].
   std::int64_t silence = 1'000'000'000;
   // Older than this, the newest motion says nothing about the present one [ns].
@@ -27,8 +27,7 @@ struct Constants {
   double most_tilt = 0.35;
   // A mounting that differs by more is not fixed [m, and as an entry of a rotation].
   double fixed = 1e-4;
-};
-constexpr Constants kConstants;
+} kConstants;
 
 double tiltOf(const Eigen::Isometry3d& T_base_sensor) {
   return std::acos(std::min(1.0, std::abs(T_base_sensor.linear()(2, 2))));
