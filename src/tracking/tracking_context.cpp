@@ -53,10 +53,11 @@ TrackerState TrackMemory::judge(const TrackingContext& context, const UncertainP
   const bool outside =
       context.map.rooms()[room_].distance(pose.mean.translation()) > kRooms.door_reach;
   if (tells || outside) {
-    lost_scans_ = outside || agreement.quality() < config.lost_quality ? lost_scans_ + 1 : 0;
+    disagreeing_scans_ =
+        outside || agreement.quality() < config.lost_quality ? disagreeing_scans_ + 1 : 0;
   }
-  if (lost_scans_ >= config.lost_scans) return TrackerState::kLost;
-  const bool is_degraded = lost_scans_ > 0 || isVague(config, pose.covariance);
+  if (disagreeing_scans_ >= config.lost_scans) return TrackerState::kLost;
+  const bool is_degraded = disagreeing_scans_ > 0 || isVague(config, pose.covariance);
   return is_degraded ? TrackerState::kDegraded : TrackerState::kTracking;
 }
 

@@ -30,9 +30,9 @@ FittedLine describe(const fitting::LineFit& fit, const std::vector<const BeamPoi
   FittedLine result;
   result.line = fit.line;
   result.line.covariance *= std::max(1.0, excess);
-  const MotionResponse response(points, fit.line);
+  const MotionResponse response(points, fit.line, walk);
   result.motion_jacobian = response.jacobian();
-  result.line.covariance += response.strayCovariance(walk);
+  result.line.covariance += response.strayCovariance();
   for (const BeamPoint* point : points) result.accepted_beams.push_back(point->beam);
   return result;
 }

@@ -81,7 +81,7 @@ std::vector<BeamPoint> walked(test::Gauss& gauss, SweepError& errors) {
 TEST(MotionResponse, WalkMovesTheLineByItsKnotsAndStraysBetweenThem) {
   const auto still = wall();
   const geometry::PolarLine line{2.0, 0.0, Eigen::Matrix2d::Identity()};
-  const MotionResponse response(pointersTo(still), line);
+  const MotionResponse response(pointersTo(still), line, walkCovariance());
   test::Gauss gauss(3);
   test::Moments<2> all;
   test::Moments<2> strayed;
@@ -97,15 +97,16 @@ TEST(MotionResponse, WalkMovesTheLineByItsKnotsAndStraysBetweenThem) {
   const SweepErrorCovariance at_knots =
       SweepNoise{Eigen::Matrix3d::Zero(), walkCovariance()}.atKnots();
   const Eigen::Matrix2d of_knots = response.jacobian() * at_knots * response.jacobian().transpose();
-  const Eigen::Matrix2d stray = response.strayCovariance(walkCovariance());
+  const Eigen::Matrix2d stray = response.strayCovariance();
   EXPECT_LT(test::relativeError<2>(strayed.covariance(), stray), 0.04);
   EXPECT_LT(test::relativeError<2>(all.covariance(), of_knots + stray), 0.04);
 }
 
 TEST(MotionResponse, WithoutAWalkNothingStrays) {
   const auto points = wall();
-  const MotionResponse response(pointersTo(points), {2.0, 0.0, Eigen::Matrix2d::Identity()});
-  EXPECT_TRUE(response.strayCovariance(Eigen::Matrix3d::Zero()).isZero(0.0));
+  const MotionResponse response(pointersTo(points), {2.0, 0.0, Eigen::Matrix2d::Identity()},
+                                Eigen::Matrix3d::Zero());
+  EXPECT_TRUE(response.strayCovariance().isZero(0.0));
 }
 
 }  // namespace

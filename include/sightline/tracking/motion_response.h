@@ -17,18 +17,22 @@ namespace sightline::tracking {
 /// side.
 class MotionResponse {
  public:
-  MotionResponse(const std::vector<const BeamPoint*>& points, const geometry::PolarLine& line);
+  /// @param walk  covariance of the random walk of the motion at the end of the sweep
+  MotionResponse(const std::vector<const BeamPoint*>& points, const geometry::PolarLine& line,
+                 const Eigen::Matrix3d& walk);
 
   const LineBySweepError& jacobian() const { return jacobian_; }
-  /// Covariance of (ρ, φ) by what a random walk strays from the straight way between two knots,
-  /// `walk` being its covariance at the end of the sweep.
-  Eigen::Matrix2d strayCovariance(const Eigen::Matrix3d& walk) const;
+  /// Covariance of (ρ, φ) by what the walk strays from the straight way between two knots.
+  const Eigen::Matrix2d& strayCovariance() const { return stray_covariance_; }
 
  private:
-  void add(double sweep_ratio, const Eigen::Matrix<double, 2, 3>& response);
+  using Sums =
+      std::array<motion::MotionSum<2>, kKnots>;  // between the start or a knot and the next
+
+  void add(double sweep_ratio, const Eigen::Matrix<double, 2, 3>& response, Sums* sums);
 
   LineBySweepError jacobian_ = LineBySweepError::Zero();
-  std::array<motion::MotionSum<2>, kKnots> between_;  // the start or a knot, and the next
+  Eigen::Matrix2d stray_covariance_ = Eigen::Matrix2d::Zero();
 };
 
 }  // namespace sightline::tracking

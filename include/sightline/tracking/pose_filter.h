@@ -16,14 +16,14 @@ namespace sightline::tracking {
 /// scale as a state). A value: copies are independent.
 class PoseFilter {
  public:
-  /// Of these the error of the sweep's motion is the last part.
+  /// Number of states: x, y, θ and s, then the error of the sweep's motion.
   static constexpr int kStates = 4 + 3 * kKnots;
 
   PoseFilter(const motion::OdometryNoise& odometry, const geometry::UncertainPose2& start);
 
   /// Moves by a step of odometry, given in the body frame at its start.
   void predict(const motion::OdometryNoise& odometry, const geometry::Pose2& step);
-  /// Begins a scan, of whose motion so much is not known.
+  /// Begins a scan whose motion has this noise.
   void beginSweep(const SweepNoise& motion_noise);
   /// Measured line of the base frame against its wall in the map, to first order.
   struct Innovation {

@@ -55,7 +55,7 @@ class TrackMemory {
   std::size_t room_;
   std::optional<geometry::Pose2> T_odom_base_;  // at the last scan
   std::int64_t stamp_ = 0;                      // of the last scan
-  int lost_scans_ = 0;                          // scans in a row that did not agree
+  int disagreeing_scans_ = 0;                   // scans in a row that did not agree
 };
 
 /// Agreement of a scan with what is seen from a pose in a room.
