@@ -14,6 +14,7 @@
 #include "nodes/recorder.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/scan_conversion.h"
+#include "sightline/bridge/time.h"
 #include "sightline/simulation/scanner.h"
 #include "sightline/world/room_map.h"
 
@@ -65,12 +66,8 @@ class LivingRoomRobot : public ::testing::Test {
   }
 
   void sendOdometry(const ros::Time& stamp) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = stamp;
-    transform.header.frame_id = "odom";
-    transform.child_frame_id = "base_link";
-    transform.transform = bridge::toTransform(odometry_);
-    broadcaster_.sendTransform(transform);
+    broadcaster_.sendTransform(
+        bridge::toTransformMessage("odom", "base_link", bridge::nanoseconds(stamp), odometry_));
   }
 
   sensor_msgs::LaserScan look(const ros::Time& stamp) {

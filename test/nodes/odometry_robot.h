@@ -38,19 +38,7 @@ inline world::World sixWalls() {
 inline geometry_msgs::TransformStamped mountingMessage(const std::string& base,
                                                        const std::string& frame,
                                                        const simulation::Mounting& mounting) {
-  const Eigen::Isometry3d T_base_sensor = mounting.T_base_sensor();
-  const Eigen::Quaterniond rotation(T_base_sensor.linear());
-  geometry_msgs::TransformStamped message;
-  message.header.frame_id = base;
-  message.child_frame_id = frame;
-  message.transform.translation.x = mounting.x;
-  message.transform.translation.y = mounting.y;
-  message.transform.translation.z = mounting.z;
-  message.transform.rotation.x = rotation.x();
-  message.transform.rotation.y = rotation.y();
-  message.transform.rotation.z = rotation.z();
-  message.transform.rotation.w = rotation.w();
-  return message;
+  return bridge::toTransformMessage(base, frame, 0, mounting.T_base_sensor());
 }
 
 /// A scanner that sits aside, turned.
