@@ -1,4 +1,3 @@
-#include <csignal>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -7,36 +6,16 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "nodes/launch.h"
 #include "nodes/recorder.h"
 #include "sightline/LineSegmentArray.h"
 
 namespace sightline {
 namespace {
 
+using test::Launch;
 using test::Recorder;
-
-// A roslaunch beside this test, ended with it.
-class Launch {
- public:
-  explicit Launch(const std::string& arguments) : process_(fork()) {
-    if (process_ != 0) return;
-    const std::string command = "exec roslaunch --wait sightline " + arguments;
-    execl("/bin/bash", "bash", "-c", command.c_str(), nullptr);
-    std::_Exit(127);
-  }
-  ~Launch() {
-    kill(process_, SIGINT);
-    waitpid(process_, nullptr, 0);
-  }
-  Launch(const Launch&) = delete;
-  Launch& operator=(const Launch&) = delete;
-
- private:
-  pid_t process_;
-};
 
 std::string recording(const std::string& name) {
   const char* folder = std::getenv("SIGHTLINE_DATA");

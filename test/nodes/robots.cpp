@@ -119,7 +119,7 @@ TEST(Robots, CommandsReachTheOneTheyAreFor) {
 }
 
 // A namespace of its own each time, as parameters stay with the master.
-std::string endOf(const std::string& robots) {
+std::string endOfRobots(const std::string& robots) {
   static int number = 0;
   const std::string node = "/ended" + std::to_string(++number) + "/sim_sensor";
   test::runCommand("rosparam set " + node +
@@ -132,18 +132,19 @@ std::string endOf(const std::string& robots) {
 
 TEST(Robots, NamesThatTwoHaveEndTheNode) {
   using testing::HasSubstr;
-  EXPECT_THAT(endOf("scanners: {a: {frame: a}, b: {frame: b}}"),
+  EXPECT_THAT(endOfRobots("scanners: {a: {frame: a}, b: {frame: b}}"),
               HasSubstr("another has the topic 'scan' already"));
-  EXPECT_THAT(endOf("scanners: {a: {topic: a}, b: {topic: b}}"),
+  EXPECT_THAT(endOfRobots("scanners: {a: {topic: a}, b: {topic: b}}"),
               HasSubstr("another has the frame 'laser' already"));
-  EXPECT_THAT(endOf("scanners: {a: {frame: base_link}}"),
+  EXPECT_THAT(endOfRobots("scanners: {a: {frame: base_link}}"),
               HasSubstr("another has the frame 'base_link' already"));
-  EXPECT_THAT(endOf("active_sensors: {a: {x: 0.1}, b: {scan: s, range_scan: r, head_command: h, "
-                    "mount_frame: m, head_frame: n, frame: p}}"),
-              HasSubstr("another has the joint 'head_joint' already"));
-  EXPECT_THAT(endOf("robots: {c: {start_pose: [1, 2]}}"),
+  EXPECT_THAT(
+      endOfRobots("active_sensors: {a: {x: 0.1}, b: {scan: s, range_scan: r, head_command: h, "
+                  "mount_frame: m, head_frame: n, frame: p}}"),
+      HasSubstr("another has the joint 'head_joint' already"));
+  EXPECT_THAT(endOfRobots("robots: {c: {start_pose: [1, 2]}}"),
               HasSubstr("expected a pose: [x, y, yaw]"));
-  EXPECT_THAT(endOf("movers: {d: {radius: 0.2}}"), HasSubstr("has to name a path file"));
+  EXPECT_THAT(endOfRobots("movers: {d: {radius: 0.2}}"), HasSubstr("has to name a path file"));
 }
 
 }  // namespace

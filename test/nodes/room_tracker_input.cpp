@@ -24,7 +24,7 @@ using test::comesTrue;
 using test::Recorder;
 using test::waitForConnection;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 class RoomTrackerInput : public test::LivingRoomRobot {
  protected:
@@ -55,7 +55,7 @@ TEST_F(RoomTrackerInput, BadScansAreDroppedWithTheirReasonAndGoodOnesStillUsed) 
   no_beams.ranges.clear();
   no_beams.intensities.clear();
   auto no_increment = look(now);
-  no_increment.angle_increment = static_cast<float>(kNan);
+  no_increment.angle_increment = static_cast<float>(kNoNumber);
   auto intensities = look(now);
   intensities.intensities.resize(3);
   const auto no_stamp = look(ros::Time());
@@ -111,7 +111,7 @@ TEST_F(RoomTrackerInput, WaitsForAPoseAndRefusesBadOnes) {
   EXPECT_TRUE(comesTrue([&] { return isRefused("in frame 'odom' instead of 'waiting/map'"); },
                         [&] { initial.publish(initialPose("odom", truth_.x())); }));
   EXPECT_TRUE(comesTrue([&] { return isRefused("a position that is not finite"); },
-                        [&] { initial.publish(initialPose("waiting/map", kNan)); }));
+                        [&] { initial.publish(initialPose("waiting/map", kNoNumber)); }));
   scanUntil(statuses, statuses.count() + 3);
   EXPECT_EQ(poses.count(), 0U);
   initial.publish(initialPose("waiting/map", truth_.x() + 0.1));
