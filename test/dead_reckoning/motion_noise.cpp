@@ -150,7 +150,7 @@ Score scoreOf(const scan::MotionNoise& noise, bool is_told, int runs) {
   return score;
 }
 
-TEST(MotionNoise, StepsAreAsUncertainAsTheyErrWhereTheSweepsMotionHasTwoPercentOfNoise) {
+TEST(MotionNoiseStatistics, StepsAreAsUncertainAsTheyErrWhereTheSweepsMotionHasTwoPercentOfNoise) {
   constexpr double kShare = 0.02;
   const Eigen::Vector3d twist(0.6, 0.1, 1.2);
   const Eigen::Vector3d whole =

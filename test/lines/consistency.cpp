@@ -51,25 +51,25 @@ void expectConsistent(const ScanOf& scan, unsigned seed) {
   EXPECT_LE(consistency.share_in_gate, 0.97);
 }
 
-TEST(Consistency, WallSeenFrontally) {
+TEST(ConsistencyStatistics, WallSeenFrontally) {
   expectConsistent(test::wallAhead(2.0, -1.5, 1.5), 21);
 }
 
-TEST(Consistency, WallToOneSide) {
+TEST(ConsistencyStatistics, WallToOneSide) {
   expectConsistent(test::wallAhead(2.0, 0.0, 3.0), 22);
 }
 
-TEST(Consistency, WallSeenObliquely) {
+TEST(ConsistencyStatistics, WallSeenObliquely) {
   expectConsistent(test::wallAhead(1.5, 2.0, 5.0), 23);
 }
 
-TEST(Consistency, NoisySensor) {
+TEST(ConsistencyStatistics, NoisySensor) {
   ScanOf scan = test::wallAhead(2.0, -1.5, 1.5);
   scan.noise.sigma = 0.03;
   expectConsistent(scan, 24);
 }
 
-TEST(Consistency, NoiseThatGrowsWithTheRange) {
+TEST(ConsistencyStatistics, NoiseThatGrowsWithTheRange) {
   ScanOf scan = test::wallAhead(1.5, 1.0, 6.0);
   scan.noise.kind = scan::NoiseKind::kProportional;
   scan.noise.sigma = 0.003;
@@ -77,27 +77,27 @@ TEST(Consistency, NoiseThatGrowsWithTheRange) {
   expectConsistent(scan, 25);
 }
 
-TEST(Consistency, NoiseOfTheBeamsDirections) {
+TEST(ConsistencyStatistics, NoiseOfTheBeamsDirections) {
   ScanOf scan = test::wallAhead(1.5, 1.0, 4.0);
   scan.noise.sigma = 0.005;
   scan.noise.angular_sigma = 0.003;
   expectConsistent(scan, 26);
 }
 
-TEST(Consistency, SensorThatTurnsAndDrivesDuringTheSweep) {
+TEST(ConsistencyStatistics, SensorThatTurnsAndDrivesDuringTheSweep) {
   ScanOf scan = test::wallAhead(2.0, -1.5, 2.5);
   scan.motion = {0.05, 0.01, 0.1};
   expectConsistent(scan, 27);
 }
 
-TEST(Consistency, SensorElsewhere) {
+TEST(ConsistencyStatistics, SensorElsewhere) {
   ScanOf scan = test::wallAhead(2.0, -1.5, 1.5);
   scan.pose = {0.4, -0.5, 0.7};
   expectConsistent(scan, 28);
 }
 
 // The same whether the sensor stood still or moved: nothing is lost in motion.
-TEST(Consistency, MotionDoesNotBias) {
+TEST(ConsistencyStatistics, MotionDoesNotBias) {
   ScanOf scan = test::wallAhead(2.0, -1.5, 2.5);
   scan.motion = {0.04, -0.02, 0.15};
   LineExtractor extractor;

@@ -26,19 +26,19 @@ void expectConsistent(const NoisySweep& noisy) {
   }
 }
 
-TEST(MotionNoise, HeadWithJitter) {
+TEST(MotionNoiseStatistics, HeadWithJitter) {
   expectConsistent(test::jitteringHead());
 }
 
-TEST(MotionNoise, OdometryThatDrifts) {
+TEST(MotionNoiseStatistics, OdometryThatDrifts) {
   expectConsistent(test::wrongOdometry(true, false));
 }
 
-TEST(MotionNoise, OdometryThatWalks) {
+TEST(MotionNoiseStatistics, OdometryThatWalks) {
   expectConsistent(test::wrongOdometry(false, true));
 }
 
-TEST(MotionNoise, FarMoreThanTheNoiseOfTheBeams) {
+TEST(MotionNoiseStatistics, FarMoreThanTheNoiseOfTheBeams) {
   NoisySweep sweep;
   sweep.motion = {0.2, 0.05, 0.4};
   sweep.noise.drift.diagonal().setConstant(2e-4);

@@ -143,7 +143,7 @@ TEST(Ends, OfTheSensorsRangeAreLimits) {
   EXPECT_EQ(segments[0].end_kind, EndKind::kScanLimit);
 }
 
-TEST(Ends, CornersErrAsMuchAsTheySay) {
+TEST(EndsStatistics, CornersErrAsMuchAsTheySay) {
   Gauss gauss(39);
   const ScanOf of = test::room();
   double squares = 0.0;
@@ -163,7 +163,7 @@ TEST(Ends, CornersErrAsMuchAsTheySay) {
   EXPECT_NEAR(squares / count, 1.0, 0.1);
 }
 
-TEST(Ends, FreeOnesErrAsMuchAsTheySay) {
+TEST(EndsStatistics, FreeOnesErrAsMuchAsTheySay) {
   Gauss gauss(40);
   double squares = 0.0;
   double count = 0.0;

@@ -33,7 +33,7 @@ Errors errorsAt(double turret_rate) {
   return errors;
 }
 
-TEST(Turret, TracksAsWellAsAFixedScanner) {
+TEST(TurretStatistics, TracksAsWellAsAFixedScanner) {
   const Errors fixed = errorsAt(0.0);
   const Errors turning = errorsAt(geometry::radians(90.0));
   EXPECT_NEAR(turning.rmse, fixed.rmse, 0.1 * fixed.rmse);

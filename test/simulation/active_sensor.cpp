@@ -134,7 +134,7 @@ TEST(ActiveSensor, LinesHoldWhileTheHeadTurns) {
 
 // NEES of walls seen near, far and obliquely, the head still or turning: the covariance of a line
 // follows from photocurrents, calibration and motion.
-TEST(ActiveSensor, CovariancesOfLinesAreHonest) {
+TEST(ActiveSensorStatistics, CovariancesOfLinesAreHonest) {
   const ActiveSensorProfile profile;
   const Ranger ranger(profile.calibrated());
   const geometry::Pose2 T_head_projection(profile.sensor.origin.position(), 0.0);

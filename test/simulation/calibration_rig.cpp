@@ -119,7 +119,7 @@ TEST(ParameterEstimation, ComesNearTheTruth) {
 
 // A rig of fewer targets than usual, for the sake of more runs: these are independent of each
 // other, which the parameters of one run are not.
-TEST(ParameterEstimation, HasTheTruthInItsIntervals) {
+TEST(ParameterEstimationStatistics, HasTheTruthInItsIntervals) {
   constexpr int kRuns = 200;
   constexpr int kSize = triangulation::kParameterCount;
   constexpr double kChiSquare95Of7 = 14.067140449340169;

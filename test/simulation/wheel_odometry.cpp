@@ -43,13 +43,13 @@ double nees(const OdometryNoise& noise, const Eigen::Vector3d& step, int steps) 
   return sum / kRuns;
 }
 
-TEST(WheelOdometry, ErrsAsTheModelOfTheFilterSaysWhenDriving) {
+TEST(WheelOdometryStatistics, ErrsAsTheModelOfTheFilterSaysWhenDriving) {
   const OdometryNoise noise;
   EXPECT_NEAR(nees(noise, {0.025, 0.0, 0.0}, 80), 3.0, 0.2) << "straight";
   EXPECT_NEAR(nees(noise, {0.025, 0.0, 0.02}, 80), 3.0, 0.2) << "in a curve";
 }
 
-TEST(WheelOdometry, ErrsAsTheModelOfTheFilterSaysWhenTurning) {
+TEST(WheelOdometryStatistics, ErrsAsTheModelOfTheFilterSaysWhenTurning) {
   OdometryNoise noise;
   double sum = 0.0;
   for (int run = 0; run < kRuns; ++run) {
@@ -88,7 +88,7 @@ TEST(WheelOdometry, WithoutNoiseOnlyScaleAndBiasesRemain) {
 }
 
 // The reported covariance holds for the odometry as it is published, if it has no biases.
-TEST(WheelOdometry, ReportedCovarianceCoversTheErrorOfTheSum) {
+TEST(WheelOdometryStatistics, ReportedCovarianceCoversTheErrorOfTheSum) {
   OdometryNoise noise;
   noise.scale_mean = 1.0;
   noise.heading_bias_per_metre = noise.steering_bias = 0.0;

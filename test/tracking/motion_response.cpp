@@ -78,7 +78,7 @@ std::vector<BeamPoint> walked(test::Gauss& gauss, SweepError& errors) {
   return points;
 }
 
-TEST(MotionResponse, WalkMovesTheLineByItsKnotsAndStraysBetweenThem) {
+TEST(MotionResponseStatistics, WalkMovesTheLineByItsKnotsAndStraysBetweenThem) {
   const auto still = wall();
   const geometry::PolarLine line{2.0, 0.0, Eigen::Matrix2d::Identity()};
   const MotionResponse response(pointersTo(still), line, walkCovariance());

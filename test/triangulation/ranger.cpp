@@ -96,7 +96,7 @@ TEST(Ranger, VarianceIsThatOfTheRange) {
 
 // The variance in a scan is taken at the neighbours' position and does not depend on the range's
 // own error.
-TEST(Ranger, VarianceInAScanIsThatOfTheRange) {
+TEST(RangerStatistics, VarianceInAScanIsThatOfTheRange) {
   const Ranger ranger(calibration());
   test::Gauss gauss(6);
   const double current = 26e-9 / (2.2 * 2.2);
