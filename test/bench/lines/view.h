@@ -44,7 +44,7 @@ struct Sensor {
 
   /// Variance along a beam that an ideal user of the scanner would state [m²].
   double variance(double range) const {
-    const double growing = sigma_per_metre * range;
+    const double growing = std::isfinite(range) ? sigma_per_metre * range : 0.0;
     return sigma * sigma + growing * growing + step * step / 12.0;
   }
 };
@@ -112,11 +112,15 @@ class Viewer {
                    angleAt(static_cast<double>(beam)) + turned)
                   .range;
     }
-    range += std::hypot(sensor_.sigma, sensor_.sigma_per_metre * range) * normal(random);
+    if (std::isfinite(range)) {
+      range += std::hypot(sensor_.sigma, sensor_.sigma_per_metre * range) * normal(random);
+    }
     if (sensor_.outlier_share > 0.0 && share(random) < sensor_.outlier_share) {
       range = 0.1 + 9.9 * share(random);
     }
-    return sensor_.step > 0.0 ? sensor_.step * std::round(range / sensor_.step) : range;
+    return sensor_.step > 0.0 && std::isfinite(range)
+               ? sensor_.step * std::round(range / sensor_.step)
+               : range;
   }
   static double invalidRange(double share) {
     if (share < 1.0 / 3.0) return std::numeric_limits<double>::quiet_NaN();

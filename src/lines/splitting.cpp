@@ -1,0 +1,229 @@
+#include "sightline/lines/splitting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sightline/geometry/statistics.h"
+#include "sightline/lines/beam_residuals.h"
+
+namespace sightline::lines {
+
+namespace {
+
+struct SplittingConstants {
+  // Chosen: the fewest returns of a block, for speed; a part has two blocks at least.
+  std::size_t smallest_block = 4;
+  // Returns this many gates off are on something else.
+  double stray_gate = 4.0;
+  // Counted: a line of its own has a distance, a direction and a break.
+  double line_freedom = 3.0;
+  // Lines that meet at more than this need no help to find where [sine].
+  double most_bend = 0.6;
+  std::size_t most_between = 8;  // returns between two pieces that adjoin
+};
+constexpr SplittingConstants kSplitting{};
+
+}  // namespace
+
+Splitting::Splitting(const BeamArray& beams, const LineExtractorConfig& config)
+    : beams_(beams),
+      gap_(config),
+      gate_squared_(config.gate * config.gate),
+      price_(geometry::chiSquareLimit(config.gate, kSplitting.line_freedom)) {}
+
+Splitting::Sums& Splitting::Sums::operator+=(const Sums& other) {
+  w += other.w;
+  a += other.a;
+  aa += other.aa;
+  e += other.e;
+  ae += other.ae;
+  ee += other.ee;
+  returns += other.returns;
+  return *this;
+}
+
+Splitting::Sums Splitting::Sums::operator-(const Sums& other) const {
+  return {w - other.w,   a - other.a,   aa - other.aa,          e - other.e,
+          ae - other.ae, ee - other.ee, returns - other.returns};
+}
+
+double Splitting::Sums::cost() const {
+  if (!(w > 0.0)) return 0.0;
+  const double spread = aa - a * a / w;
+  const double common = ae - a * e / w;
+  const double by_slope = spread > 1e-9 * aa ? common * common / spread : 0.0;
+  return std::max(0.0, ee - e * e / w - by_slope);
+}
+
+// e ≈ ρ_step − position φ_step, with the position seen from the line's own origin.
+LineEstimate Splitting::Sums::line(const LineEstimate& about, double reference) const {
+  LineEstimate line = about;
+  const Information information{w, -a, aa};
+  if (!information.isDetermined()) return about;
+  const double slope = (ae - a * e / w) / (aa - a * a / w);
+  line.information = information.shifted(-reference);
+  line.step((e - slope * a) / w - slope * reference, -slope);
+  return line;
+}
+
+bool Splitting::split(const Piece& piece, std::vector<Piece>& parts) {
+  if (gather(piece.first, piece.end, piece.line, piece.line, piece.line)) {
+    const double two = bestOfTwo().cost;
+    // Where even two lines leave more than the noise does, it takes more to gain by chance.
+    const double freedom = before_[blocks_].returns - kSplitting.line_freedom - 2.0;
+    const double price = (price_ + 2.0 * std::log(static_cast<double>(blocks_))) *
+                         std::max(1.0, two / std::max(1.0, freedom));
+    if (costOf(0, blocks_) - two > price) {
+      divide(price);
+      if (append(parts)) return true;
+    }
+  }
+  parts.push_back(piece);
+  return false;
+}
+
+bool Splitting::settle(Piece& before, Piece& after) {
+  const double sine =
+      before.line.normal_x * after.line.normal_y - before.line.normal_y * after.line.normal_x;
+  if (std::abs(sine) > kSplitting.most_bend || !adjoin(before, after)) return false;
+  if (!gather(before.first, after.end, middleLine(before, after), before.line, after.line)) {
+    return false;
+  }
+  const std::size_t at = bestOfTwo().at;
+  Piece first = part(0, at);
+  Piece second = part(at, blocks_);
+  if (!refine(beams_, gate_squared_, first) || !refine(beams_, gate_squared_, second)) return false;
+  before = first;
+  after = second;
+  return true;
+}
+
+bool Splitting::adjoin(const Piece& before, const Piece& after) const {
+  if (after.first - before.end > kSplitting.most_between) return false;
+  const double length = positionOn(beams_, after.first, before.line) -
+                        positionOn(beams_, before.end - 1, before.line);
+  return gap_.mayBridge(beams_, before.line, before.end - 1, after.first, length);
+}
+
+// Through the place where two pieces meet, halfway between their directions.
+LineEstimate Splitting::middleLine(const Piece& before, const Piece& after) const {
+  LineEstimate line = before.line;
+  line.normal_x += after.line.normal_x;
+  line.normal_y += after.line.normal_y;
+  const double length = std::hypot(line.normal_x, line.normal_y);
+  line.normal_x /= length;
+  line.normal_y /= length;
+  line.rho = line.normal_x * static_cast<double>(beams_.x[after.first]) +
+             line.normal_y * static_cast<double>(beams_.y[after.first]);
+  return line;
+}
+
+// False where there are too few returns for two lines.
+bool Splitting::gather(std::size_t first, std::size_t end, const LineEstimate& about,
+                       const LineEstimate& before, const LineEstimate& after) {
+  first_ = first;
+  end_ = end;
+  about_ = about;
+  block_ = std::max(kSplitting.smallest_block, (end - first + kMostBlocks - 1) / kMostBlocks);
+  blocks_ = (end - first) / block_;
+  if (blocks_ < 4) return false;
+  const std::size_t middle = first + (end - first) / 2;
+  reference_ = about.alongX() * static_cast<double>(beams_.x[middle]) +
+               about.alongY() * static_cast<double>(beams_.y[middle]);
+  before_[0] = {};
+  for (std::size_t k = 0; k < blocks_; ++k) {
+    before_[k + 1] = before_[k];
+    before_[k + 1] += sumOf(beginOf(k), beginOf(k + 1), before, after);
+  }
+  return true;
+}
+
+std::size_t Splitting::beginOf(std::size_t block) const {
+  return block == blocks_ ? end_ : first_ + block * block_;
+}
+
+// Weights are those of the closer line.
+SIGHTLINE_VECTOR_CLONES
+Splitting::Sums Splitting::sumOf(std::size_t first, std::size_t end, const LineEstimate& before,
+                                 const LineEstimate& after) const {
+  const auto nx = static_cast<float>(about_.normal_x);
+  const auto ny = static_cast<float>(about_.normal_y);
+  const auto rho = static_cast<float>(about_.rho);
+  const auto reference = static_cast<float>(reference_);
+  const auto gate = static_cast<float>(gate_squared_);
+  const auto stray = static_cast<float>(kSplitting.stray_gate * kSplitting.stray_gate) * gate;
+  Packet w{}, wa{}, waa{}, we{}, wae{}, wee{}, returns{};
+  for (std::size_t i = first; i < end; i += kLanes) {
+    const BeamResiduals of_before = residualsOf(beams_, i, before);
+    const BeamResiduals of_after = residualsOf(beams_, i, after);
+    const Packet as_before = of_before.squared();
+    const Packet as_after = of_after.squared();
+    const Packet squared = smaller(as_before, as_after);
+    const Packet taken = squared > stray ? all(0.0F) : firstLanes(end - i);
+    const Packet closer = as_before < as_after ? of_before.weight : of_after.weight;
+    // Beyond the gate a return counts as if it were there.
+    const Packet weight = taken * closer * smaller(all(1.0F), gate / larger(squared, all(1e-6F)));
+    const Packet x = load(beams_.x.data() + i);
+    const Packet y = load(beams_.y.data() + i);
+    const Packet a = nx * y - ny * x - reference;
+    const Packet e = nx * x + ny * y - rho;
+    w += weight;
+    wa += weight * a;
+    waa += weight * a * a;
+    we += weight * e;
+    wae += weight * a * e;
+    wee += weight * e * e;
+    returns += taken;
+  }
+  return {sum(w), sum(wa), sum(waa), sum(we), sum(wae), sum(wee), sum(returns)};
+}
+
+double Splitting::costOf(std::size_t first, std::size_t end) const {
+  return (before_[end] - before_[first]).cost();
+}
+
+Splitting::Break Splitting::bestOfTwo() const {
+  Break best{2, std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 2; k + 2 <= blocks_; ++k) {
+    const double cost = costOf(0, k) + costOf(k, blocks_);
+    if (cost < best.cost) best = {k, cost};
+  }
+  return best;
+}
+
+// The likeliest division of the first k blocks, for every k.
+void Splitting::divide(double price) {
+  least_[0] = -price;
+  least_[1] = std::numeric_limits<double>::infinity();
+  for (std::size_t end = 2; end <= blocks_; ++end) {
+    least_[end] = std::numeric_limits<double>::infinity();
+    for (std::size_t first = 0; first + 2 <= end; ++first) {
+      const double cost = least_[first] + costOf(first, end) + price;
+      if (cost >= least_[end]) continue;
+      least_[end] = cost;
+      from_[end] = first;
+    }
+  }
+}
+
+Piece Splitting::part(std::size_t first, std::size_t end) const {
+  Piece part;
+  part.first = beginOf(first);
+  part.end = beginOf(end);
+  part.line = (before_[end] - before_[first]).line(about_, reference_);
+  return part;
+}
+
+bool Splitting::append(std::vector<Piece>& parts) const {
+  if (from_[blocks_] == 0) return false;
+  const std::size_t old_size = parts.size();
+  for (std::size_t end = blocks_; end > 0; end = from_[end]) {
+    Piece found = part(from_[end], end);
+    if (refine(beams_, gate_squared_, found)) parts.push_back(found);
+  }
+  std::reverse(parts.begin() + static_cast<std::ptrdiff_t>(old_size), parts.end());
+  return true;
+}
+
+}  // namespace sightline::lines
