@@ -68,19 +68,99 @@ LineEstimate Splitting::Sums::line(const LineEstimate& about, double reference) 
 }
 
 bool Splitting::split(const Piece& piece, std::vector<Piece>& parts) {
-  if (gather(piece.first, piece.end, piece.line, piece.line, piece.line)) {
+  if (isBent(piece) && gather(piece.first, piece.end, piece.line, piece.line, piece.line)) {
     const double two = bestOfTwo().cost;
     // Where even two lines leave more than the noise does, it takes more to gain by chance.
     const double freedom = before_[blocks_].returns - kSplitting.line_freedom - 2.0;
-    const double price = (price_ + 2.0 * std::log(static_cast<double>(blocks_))) *
-                         std::max(1.0, two / std::max(1.0, freedom));
-    if (costOf(0, blocks_) - two > price) {
-      divide(price);
+    const double most = price() * std::max(1.0, two / std::max(1.0, freedom));
+    if (costOf(0, blocks_) - two > most) {
+      divide(most);
       if (append(parts)) return true;
     }
   }
   parts.push_back(piece);
   return false;
+}
+
+// Chance gains by the break that suits it best.
+double Splitting::price() const {
+  return price_ + 2.0 * std::log(static_cast<double>(blocks_));
+}
+
+void Splitting::layOut(std::size_t first, std::size_t end) {
+  first_ = first;
+  end_ = end;
+  block_ = std::max(kSplitting.smallest_block, (end - first + kMostBlocks - 1) / kMostBlocks);
+  blocks_ = (end - first) / block_;
+}
+
+// Whether any break gains enough, for speed: by the gradients at the line of the piece, and kLanes
+// breaks at once.
+SIGHTLINE_VECTOR_CLONES
+bool Splitting::isBent(const Piece& piece) {
+  layOut(piece.first, piece.end);
+  if (blocks_ < 4) return false;
+  score(piece);
+  const Scores whole = scoresOf(blocks_);
+  const Scores all_of_it{all(whole.w[0]), all(whole.a[0]), all(whole.aa[0]), all(whole.e[0]),
+                         all(whole.ae[0])};
+  const Packet together = all_of_it.gain();
+  Packet best{};
+  for (std::size_t k = 2; k + 2 <= blocks_; k += kLanes) {
+    const Scores before = scoresOf(k);
+    const Packet gain = before.gain() + (all_of_it - before).gain() - together;
+    best = larger(best, firstLanes(blocks_ - 1 - k) * gain);
+  }
+  const float most = std::max(std::max(best[0], best[1]), std::max(best[2], best[3]));
+  return static_cast<double>(most) > price();
+}
+
+// Of the blocks before `block` and before the next three.
+Splitting::Scores Splitting::scoresOf(std::size_t block) const {
+  const Scores* of = scores_.data() + block;
+  return {sums(of[0].w, of[1].w, of[2].w, of[3].w), sums(of[0].a, of[1].a, of[2].a, of[3].a),
+          sums(of[0].aa, of[1].aa, of[2].aa, of[3].aa), sums(of[0].e, of[1].e, of[2].e, of[3].e),
+          sums(of[0].ae, of[1].ae, of[2].ae, of[3].ae)};
+}
+
+SIGHTLINE_VECTOR_CLONES
+void Splitting::score(const Piece& piece) {
+  const auto reference =
+      static_cast<float>(positionOn(beams_, first_ + (end_ - first_) / 2, piece.line));
+  const auto gate = static_cast<float>(gate_squared_);
+  const auto stray = static_cast<float>(kSplitting.stray_gate * kSplitting.stray_gate) * gate;
+  Scores scores;
+  for (std::size_t k = 0; k < blocks_; ++k) {
+    scores_[k] = scores;
+    const std::size_t end = beginOf(k + 1);
+    for (std::size_t i = beginOf(k); i < end; i += kLanes) {
+      const BeamResiduals of = residualsOf(beams_, i, piece.line);
+      const Packet squared = of.squared();
+      const Packet taken = squared > stray ? all(0.0F) : firstLanes(end - i);
+      const Packet bounded = smaller(all(1.0F), gate / larger(squared, all(1e-6F)));
+      const Packet weight = taken * of.weight * bounded;
+      const Packet a = of.position - reference;
+      scores.w += weight;
+      scores.a += weight * a;
+      scores.aa += weight * a * a;
+      scores.e += weight * of.distance;
+      scores.ae += weight * a * of.distance;
+    }
+  }
+  for (std::size_t k = blocks_; k < blocks_ + kLanes; ++k) scores_[k] = scores;
+}
+
+Splitting::Scores Splitting::Scores::operator-(const Scores& other) const {
+  return {w - other.w, a - other.a, aa - other.aa, e - other.e, ae - other.ae};
+}
+
+Packet Splitting::Scores::gain() const {
+  constexpr float kLeast = 1e-6F;
+  const Packet mean = a / larger(w, all(kLeast));
+  const Packet spread = aa - a * mean;
+  const Packet common = ae - e * mean;
+  const Packet by_slope = spread > kLeast * aa ? common * common / spread : all(0.0F);
+  return e * e / larger(w, all(kLeast)) + by_slope;
 }
 
 bool Splitting::settle(Piece& before, Piece& after) {
@@ -122,11 +202,8 @@ LineEstimate Splitting::middleLine(const Piece& before, const Piece& after) cons
 // False where there are too few returns for two lines.
 bool Splitting::gather(std::size_t first, std::size_t end, const LineEstimate& about,
                        const LineEstimate& before, const LineEstimate& after) {
-  first_ = first;
-  end_ = end;
+  layOut(first, end);
   about_ = about;
-  block_ = std::max(kSplitting.smallest_block, (end - first + kMostBlocks - 1) / kMostBlocks);
-  blocks_ = (end - first) / block_;
   if (blocks_ < 4) return false;
   const std::size_t middle = first + (end - first) / 2;
   reference_ = about.alongX() * static_cast<double>(beams_.x[middle]) +

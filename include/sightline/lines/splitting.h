@@ -7,6 +7,7 @@
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/gap.h"
 #include "sightline/lines/line_extractor_config.h"
+#include "sightline/lines/packet.h"
 #include "sightline/lines/piece.h"
 
 namespace sightline::lines {
@@ -43,11 +44,23 @@ class Splitting {
     LineEstimate line(const LineEstimate& about, double reference) const;
   };
 
+  /// The sums that tell what a line of its own gains, of kLanes blocks or lane by lane.
+  struct Scores {
+    Packet w{}, a{}, aa{}, e{}, ae{};
+    Scores operator-(const Scores& other) const;
+    /// Decrease of χ² by the line that fits best.
+    Packet gain() const;
+  };
   struct Break {
     std::size_t at;  // block
     double cost;
   };
 
+  void layOut(std::size_t first, std::size_t end);
+  double price() const;
+  bool isBent(const Piece& piece);
+  void score(const Piece& piece);
+  Scores scoresOf(std::size_t block) const;
   bool gather(std::size_t first, std::size_t end, const LineEstimate& about,
               const LineEstimate& before, const LineEstimate& after);
   std::size_t beginOf(std::size_t block) const;
@@ -71,9 +84,10 @@ class Splitting {
   double reference_ = 0.0;  // position on it [m]
   std::size_t block_ = 0;   // returns of a block
   std::size_t blocks_ = 0;
-  std::array<Sums, kMostBlocks + 1> before_;       // prefix sums
-  std::array<double, kMostBlocks + 1> least_{};    // cost of the blocks before
-  std::array<std::size_t, kMostBlocks + 1> from_;  // where the last of their lines begins
+  std::array<Scores, kMostBlocks + kLanes + 1> scores_;  // prefix sums, lane by lane
+  std::array<Sums, kMostBlocks + 1> before_;             // prefix sums
+  std::array<double, kMostBlocks + 1> least_{};          // cost of the blocks before
+  std::array<std::size_t, kMostBlocks + 1> from_;        // where the last of their lines begins
 };
 
 }  // namespace sightline::lines
