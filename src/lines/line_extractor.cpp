@@ -261,6 +261,7 @@ geometry::LineSegment LineExtractor::segmentOf(const Piece& piece, const EndPoin
   const Eigen::Vector2d along(line.alongX(), line.alongY());
   geometry::LineSegment segment;
   segment.line = line.polar();
+  segment.line.covariance *= unevenness(beams_, config_.gate * config_.gate, piece);
   segment.ends = {foot + start.position * along, foot + end.position * along};
   segment.start_sigma = std::sqrt(start.variance);
   segment.end_sigma = std::sqrt(end.variance);

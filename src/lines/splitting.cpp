@@ -18,17 +18,25 @@ struct SplittingConstants {
   double stray_gate = 4.0;
   // Counted: a line of its own has a distance, a direction and a break.
   double line_freedom = 3.0;
+  // A wall that bends by less is one that is not quite straight [sine].
+  double least_bend = 0.05;
   // Lines that meet at more than this need no help to find where [sine].
   double most_bend = 0.6;
   std::size_t most_between = 8;  // returns between two pieces that adjoin
 };
 constexpr SplittingConstants kSplitting{};
 
+// Sine of the turn from one line to the next.
+double bendBetween(const Piece& before, const Piece& after) {
+  return before.line.normal_x * after.line.normal_y - before.line.normal_y * after.line.normal_x;
+}
+
 }  // namespace
 
 Splitting::Splitting(const BeamArray& beams, const LineExtractorConfig& config)
     : beams_(beams),
       gap_(config),
+      fewest_(static_cast<std::size_t>(config.min_beams)),
       gate_squared_(config.gate * config.gate),
       price_(geometry::chiSquareLimit(config.gate, kSplitting.line_freedom)) {}
 
@@ -92,6 +100,7 @@ void Splitting::layOut(std::size_t first, std::size_t end) {
   end_ = end;
   block_ = std::max(kSplitting.smallest_block, (end - first + kMostBlocks - 1) / kMostBlocks);
   blocks_ = (end - first) / block_;
+  fewest_blocks_ = std::max<std::size_t>(2, (fewest_ + block_ - 1) / block_);
 }
 
 // Whether any break gains enough, for speed: by the gradients at the line of the piece, and kLanes
@@ -99,17 +108,17 @@ void Splitting::layOut(std::size_t first, std::size_t end) {
 SIGHTLINE_VECTOR_CLONES
 bool Splitting::isBent(const Piece& piece) {
   layOut(piece.first, piece.end);
-  if (blocks_ < 4) return false;
+  if (blocks_ < 2 * fewest_blocks_) return false;
   score(piece);
   const Scores whole = scoresOf(blocks_);
   const Scores all_of_it{all(whole.w[0]), all(whole.a[0]), all(whole.aa[0]), all(whole.e[0]),
                          all(whole.ae[0])};
   const Packet together = all_of_it.gain();
   Packet best{};
-  for (std::size_t k = 2; k + 2 <= blocks_; k += kLanes) {
+  for (std::size_t k = fewest_blocks_; k + fewest_blocks_ <= blocks_; k += kLanes) {
     const Scores before = scoresOf(k);
     const Packet gain = before.gain() + (all_of_it - before).gain() - together;
-    best = larger(best, firstLanes(blocks_ - 1 - k) * gain);
+    best = larger(best, firstLanes(blocks_ + 1 - fewest_blocks_ - k) * gain);
   }
   const float most = std::max(std::max(best[0], best[1]), std::max(best[2], best[3]));
   return static_cast<double>(most) > price();
@@ -164,9 +173,8 @@ Packet Splitting::Scores::gain() const {
 }
 
 bool Splitting::settle(Piece& before, Piece& after) {
-  const double sine =
-      before.line.normal_x * after.line.normal_y - before.line.normal_y * after.line.normal_x;
-  if (std::abs(sine) > kSplitting.most_bend || !adjoin(before, after)) return false;
+  if (std::abs(bendBetween(before, after)) > kSplitting.most_bend || !adjoin(before, after))
+    return false;
   if (!gather(before.first, after.end, middleLine(before, after), before.line, after.line)) {
     return false;
   }
@@ -204,7 +212,7 @@ bool Splitting::gather(std::size_t first, std::size_t end, const LineEstimate& a
                        const LineEstimate& before, const LineEstimate& after) {
   layOut(first, end);
   about_ = about;
-  if (blocks_ < 4) return false;
+  if (blocks_ < 2 * fewest_blocks_) return false;
   const std::size_t middle = first + (end - first) / 2;
   reference_ = about.alongX() * static_cast<double>(beams_.x[middle]) +
                about.alongY() * static_cast<double>(beams_.y[middle]);
@@ -261,8 +269,8 @@ double Splitting::costOf(std::size_t first, std::size_t end) const {
 }
 
 Splitting::Break Splitting::bestOfTwo() const {
-  Break best{2, std::numeric_limits<double>::infinity()};
-  for (std::size_t k = 2; k + 2 <= blocks_; ++k) {
+  Break best{fewest_blocks_, std::numeric_limits<double>::infinity()};
+  for (std::size_t k = fewest_blocks_; k + fewest_blocks_ <= blocks_; ++k) {
     const double cost = costOf(0, k) + costOf(k, blocks_);
     if (cost < best.cost) best = {k, cost};
   }
@@ -272,10 +280,9 @@ Splitting::Break Splitting::bestOfTwo() const {
 // The likeliest division of the first k blocks, for every k.
 void Splitting::divide(double price) {
   least_[0] = -price;
-  least_[1] = std::numeric_limits<double>::infinity();
-  for (std::size_t end = 2; end <= blocks_; ++end) {
+  for (std::size_t end = 1; end <= blocks_; ++end) {
     least_[end] = std::numeric_limits<double>::infinity();
-    for (std::size_t first = 0; first + 2 <= end; ++first) {
+    for (std::size_t first = 0; first + fewest_blocks_ <= end; ++first) {
       const double cost = least_[first] + costOf(first, end) + price;
       if (cost >= least_[end]) continue;
       least_[end] = cost;
@@ -293,14 +300,21 @@ Piece Splitting::part(std::size_t first, std::size_t end) const {
 }
 
 bool Splitting::append(std::vector<Piece>& parts) const {
-  if (from_[blocks_] == 0) return false;
   const std::size_t old_size = parts.size();
   for (std::size_t end = blocks_; end > 0; end = from_[end]) {
     Piece found = part(from_[end], end);
     if (refine(beams_, gate_squared_, found)) parts.push_back(found);
   }
-  std::reverse(parts.begin() + static_cast<std::ptrdiff_t>(old_size), parts.end());
-  return true;
+  bool bends = false;
+  for (std::size_t i = old_size; i + 1 < parts.size(); ++i) {
+    bends = bends || std::abs(bendBetween(parts[i + 1], parts[i])) > kSplitting.least_bend;
+  }
+  if (bends) {
+    std::reverse(parts.begin() + static_cast<std::ptrdiff_t>(old_size), parts.end());
+  } else {
+    parts.resize(old_size);
+  }
+  return bends;
 }
 
 }  // namespace sightline::lines

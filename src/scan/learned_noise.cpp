@@ -25,7 +25,8 @@ constexpr LearnedNoiseConstants kLearning{};
 }  // namespace
 
 LearnedNoise::LearnedNoise(const NoiseModel& model) : model_(model) {
-  noise_.sigma = std::max(model.sigma, model.least_sigma);
+  noise_.sigma = model.sigma;
+  noise_.least = model.least_sigma;
 }
 
 void LearnedNoise::apply(Scan& scan) {
@@ -57,9 +58,9 @@ void LearnedNoise::fit() {
                scans_ <= kLearning.first ? kLearning.first_steps : kLearning.later_steps);
   if (fit_.normal() < kLearning.enough) return;
   const double of_step = step_.step() * step_.step() / 12.0;
-  const double least = std::max(of_step, model_.least_sigma * model_.least_sigma);
-  noise_.sigma = std::sqrt(std::max(fit_.constant() - of_step, least));
+  noise_.sigma = std::sqrt(std::max(fit_.constant() - of_step, of_step));
   noise_.sigma_per_metre = std::sqrt(fit_.growth());
+  noise_.least = of_step > 0.0 ? std::sqrt(of_step) : model_.least_sigma;
   noise_.step = step_.step();
   noise_.is_learned = true;
 }

@@ -18,7 +18,10 @@ void NoiseModel::visit(config::FieldVisitor& visitor) {
        {1e-6, 10.0},
        "standard deviation along a beam, or its constant part; estimated: until scans show it"});
   visitor.number("least_sigma", least_sigma,
-                 {"m", {1e-6, 10.0}, "estimated: the standard deviation is never taken for less"});
+                 {"m",
+                  {1e-6, 10.0},
+                  "estimated: the standard deviation is never taken for less, unless the ranges "
+                  "are counted in steps"});
   visitor.number(
       "sigma_per_metre", sigma_per_metre,
       {"1", {0.0, 1.0}, "proportional: share of the range added to sigma in quadrature"});

@@ -32,9 +32,16 @@ ScanOf roomWith(const NoiseModel& noise) {
   return of;
 }
 
+LearnedNoise withoutLeast() {
+  NoiseModel noise;
+  noise.kind = NoiseKind::kEstimated;
+  noise.least_sigma = 1e-6;
+  return LearnedNoise(noise);
+}
+
 RangeNoise learnedFrom(const ScanOf& of, int scans, unsigned seed) {
   Gauss gauss(seed);
-  LearnedNoise learned;
+  LearnedNoise learned = withoutLeast();
   for (int i = 0; i < scans; ++i) {
     Scan scan = of.take(gauss);
     learned.apply(scan);

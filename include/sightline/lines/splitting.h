@@ -76,6 +76,7 @@ class Splitting {
 
   const BeamArray& beams_;
   Gap gap_;
+  std::size_t fewest_;  // returns of a part
   double gate_squared_;
   double price_;
   std::size_t first_ = 0;  // returns that have been gathered
@@ -84,6 +85,7 @@ class Splitting {
   double reference_ = 0.0;  // position on it [m]
   std::size_t block_ = 0;   // returns of a block
   std::size_t blocks_ = 0;
+  std::size_t fewest_blocks_ = 0;                        // of a part
   std::array<Scores, kMostBlocks + kLanes + 1> scores_;  // prefix sums, lane by lane
   std::array<Sums, kMostBlocks + 1> before_;             // prefix sums
   std::array<double, kMostBlocks + 1> least_{};          // cost of the blocks before

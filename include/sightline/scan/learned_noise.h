@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "sightline/scan/noise_fit.h"
@@ -14,13 +15,14 @@ namespace sightline::scan {
 struct RangeNoise {
   double sigma = 0.01;           ///< constant part [m]; the noise of quantisation is in it
   double sigma_per_metre = 0.0;  ///< share of the range, added in quadrature
+  double least = 0.0;            ///< standard deviation that no range is taken for better than [m]
   double step = 0.0;             ///< in which the ranges are counted [m]; 0: none that matters
   bool is_learned = false;       ///< whether scans have shown it
 
   /// [m²]
   double variance(double range) const {
     const double growing = sigma_per_metre * range;
-    return sigma * sigma + growing * growing;
+    return std::max(sigma * sigma + growing * growing, least * least);
   }
 };
 
@@ -28,7 +30,9 @@ struct RangeNoise {
 ///
 /// Each return is held against its neighbours (NoiseHistogram), and the noise is the narrow part of
 /// what comes of it (fitNoise): steps, edges and furniture make distances of any size, and do not
-/// raise it. Ranges counted in steps have the noise of the step at least.
+/// raise it. What neighbours share does not show: surfaces that are not flat, and errors of the
+/// scanner that go on from beam to beam, for which the noise is never taken for less than a
+/// setting. Ranges counted in steps have the noise of the step at least instead.
 class LearnedNoise {
  public:
   /// Uses sigma, which is assumed until enough has been seen, least_sigma and angular_sigma.

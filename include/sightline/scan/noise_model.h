@@ -20,7 +20,7 @@ enum class NoiseKind {
 struct NoiseModel {
   NoiseKind kind = NoiseKind::kConstant;
   double sigma = 0.01;              ///< [m]; kEstimated: until scans show it
-  double least_sigma = 0.002;       ///< kEstimated: [m]
+  double least_sigma = 0.01;        ///< kEstimated: [m], of ranges that are not counted in steps
   double sigma_per_metre = 0.0;     ///< kProportional
   double range_half_width = 0.025;  ///< kUniform: Δr [m]
   double angle_half_width = 0.0;    ///< kUniform: Δα [rad]
