@@ -40,41 +40,6 @@ Splitting::Splitting(const BeamArray& beams, const LineExtractorConfig& config)
       gate_squared_(config.gate * config.gate),
       price_(geometry::chiSquareLimit(config.gate, kSplitting.line_freedom)) {}
 
-Splitting::Sums& Splitting::Sums::operator+=(const Sums& other) {
-  w += other.w;
-  a += other.a;
-  aa += other.aa;
-  e += other.e;
-  ae += other.ae;
-  ee += other.ee;
-  returns += other.returns;
-  return *this;
-}
-
-Splitting::Sums Splitting::Sums::operator-(const Sums& other) const {
-  return {w - other.w,   a - other.a,   aa - other.aa,          e - other.e,
-          ae - other.ae, ee - other.ee, returns - other.returns};
-}
-
-double Splitting::Sums::cost() const {
-  if (!(w > 0.0)) return 0.0;
-  const double spread = aa - a * a / w;
-  const double common = ae - a * e / w;
-  const double by_slope = spread > 1e-9 * aa ? common * common / spread : 0.0;
-  return std::max(0.0, ee - e * e / w - by_slope);
-}
-
-// e ≈ ρ_step − position φ_step, with the position seen from the line's own origin.
-LineEstimate Splitting::Sums::line(const LineEstimate& about, double reference) const {
-  LineEstimate line = about;
-  const Information information{w, -a, aa};
-  if (!information.isDetermined()) return about;
-  const double slope = (ae - a * e / w) / (aa - a * a / w);
-  line.information = information.shifted(-reference);
-  line.step((e - slope * a) / w - slope * reference, -slope);
-  return line;
-}
-
 bool Splitting::split(const Piece& piece, std::vector<Piece>& parts) {
   if (isBent(piece) && gather(piece.first, piece.end, piece.line, piece.line, piece.line)) {
     const double two = bestOfTwo().cost;
@@ -110,13 +75,13 @@ bool Splitting::isBent(const Piece& piece) {
   layOut(piece.first, piece.end);
   if (blocks_ < 2 * fewest_blocks_) return false;
   score(piece);
-  const Scores whole = scoresOf(blocks_);
-  const Scores all_of_it{all(whole.w[0]), all(whole.a[0]), all(whole.aa[0]), all(whole.e[0]),
-                         all(whole.ae[0])};
+  const LineScores whole = scoresOf(blocks_);
+  const LineScores all_of_it{all(whole.w[0]), all(whole.a[0]), all(whole.aa[0]), all(whole.e[0]),
+                             all(whole.ae[0])};
   const Packet together = all_of_it.gain();
   Packet best{};
   for (std::size_t k = fewest_blocks_; k + fewest_blocks_ <= blocks_; k += kLanes) {
-    const Scores before = scoresOf(k);
+    const LineScores before = scoresOf(k);
     const Packet gain = before.gain() + (all_of_it - before).gain() - together;
     best = larger(best, firstLanes(blocks_ + 1 - fewest_blocks_ - k) * gain);
   }
@@ -125,8 +90,8 @@ bool Splitting::isBent(const Piece& piece) {
 }
 
 // Of the blocks before `block` and before the next three.
-Splitting::Scores Splitting::scoresOf(std::size_t block) const {
-  const Scores* of = scores_.data() + block;
+LineScores Splitting::scoresOf(std::size_t block) const {
+  const LineScores* of = scores_.data() + block;
   return {sums(of[0].w, of[1].w, of[2].w, of[3].w), sums(of[0].a, of[1].a, of[2].a, of[3].a),
           sums(of[0].aa, of[1].aa, of[2].aa, of[3].aa), sums(of[0].e, of[1].e, of[2].e, of[3].e),
           sums(of[0].ae, of[1].ae, of[2].ae, of[3].ae)};
@@ -138,7 +103,7 @@ void Splitting::score(const Piece& piece) {
       static_cast<float>(positionOn(beams_, first_ + (end_ - first_) / 2, piece.line));
   const auto gate = static_cast<float>(gate_squared_);
   const auto stray = static_cast<float>(kSplitting.stray_gate * kSplitting.stray_gate) * gate;
-  Scores scores;
+  LineScores scores;
   for (std::size_t k = 0; k < blocks_; ++k) {
     scores_[k] = scores;
     const std::size_t end = beginOf(k + 1);
@@ -157,19 +122,6 @@ void Splitting::score(const Piece& piece) {
     }
   }
   for (std::size_t k = blocks_; k < blocks_ + kLanes; ++k) scores_[k] = scores;
-}
-
-Splitting::Scores Splitting::Scores::operator-(const Scores& other) const {
-  return {w - other.w, a - other.a, aa - other.aa, e - other.e, ae - other.ae};
-}
-
-Packet Splitting::Scores::gain() const {
-  constexpr float kLeast = 1e-6F;
-  const Packet mean = a / larger(w, all(kLeast));
-  const Packet spread = aa - a * mean;
-  const Packet common = ae - e * mean;
-  const Packet by_slope = spread > kLeast * aa ? common * common / spread : all(0.0F);
-  return e * e / larger(w, all(kLeast)) + by_slope;
 }
 
 bool Splitting::settle(Piece& before, Piece& after) {
@@ -230,8 +182,8 @@ std::size_t Splitting::beginOf(std::size_t block) const {
 
 // Weights are those of the closer line.
 SIGHTLINE_VECTOR_CLONES
-Splitting::Sums Splitting::sumOf(std::size_t first, std::size_t end, const LineEstimate& before,
-                                 const LineEstimate& after) const {
+LineSums Splitting::sumOf(std::size_t first, std::size_t end, const LineEstimate& before,
+                          const LineEstimate& after) const {
   const auto nx = static_cast<float>(about_.normal_x);
   const auto ny = static_cast<float>(about_.normal_y);
   const auto rho = static_cast<float>(about_.rho);

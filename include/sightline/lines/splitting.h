@@ -7,7 +7,7 @@
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/gap.h"
 #include "sightline/lines/line_extractor_config.h"
-#include "sightline/lines/packet.h"
+#include "sightline/lines/line_sums.h"
 #include "sightline/lines/piece.h"
 
 namespace sightline::lines {
@@ -32,25 +32,6 @@ class Splitting {
 
  private:
   static constexpr std::size_t kMostBlocks = 48;
-  /// Weighted sums over returns of their distance e from a line and their position a along it, from
-  /// a reference on.
-  struct Sums {
-    double w = 0.0, a = 0.0, aa = 0.0, e = 0.0, ae = 0.0, ee = 0.0, returns = 0.0;
-    Sums& operator+=(const Sums& other);
-    Sums operator-(const Sums& other) const;
-    /// χ² about the line that fits best.
-    double cost() const;
-    /// That line.
-    LineEstimate line(const LineEstimate& about, double reference) const;
-  };
-
-  /// The sums that tell what a line of its own gains, of kLanes blocks or lane by lane.
-  struct Scores {
-    Packet w{}, a{}, aa{}, e{}, ae{};
-    Scores operator-(const Scores& other) const;
-    /// Decrease of χ² by the line that fits best.
-    Packet gain() const;
-  };
   struct Break {
     std::size_t at;  // block
     double cost;
@@ -60,14 +41,14 @@ class Splitting {
   double price() const;
   bool isBent(const Piece& piece);
   void score(const Piece& piece);
-  Scores scoresOf(std::size_t block) const;
+  LineScores scoresOf(std::size_t block) const;
   bool gather(std::size_t first, std::size_t end, const LineEstimate& about,
               const LineEstimate& before, const LineEstimate& after);
   std::size_t beginOf(std::size_t block) const;
   bool adjoin(const Piece& before, const Piece& after) const;
   LineEstimate middleLine(const Piece& before, const Piece& after) const;
-  Sums sumOf(std::size_t first, std::size_t end, const LineEstimate& before,
-             const LineEstimate& after) const;
+  LineSums sumOf(std::size_t first, std::size_t end, const LineEstimate& before,
+                 const LineEstimate& after) const;
   double costOf(std::size_t first, std::size_t end) const;
   Break bestOfTwo() const;
   void divide(double price);
@@ -85,11 +66,11 @@ class Splitting {
   double reference_ = 0.0;  // position on it [m]
   std::size_t block_ = 0;   // returns of a block
   std::size_t blocks_ = 0;
-  std::size_t fewest_blocks_ = 0;                        // of a part
-  std::array<Scores, kMostBlocks + kLanes + 1> scores_;  // prefix sums, lane by lane
-  std::array<Sums, kMostBlocks + 1> before_;             // prefix sums
-  std::array<double, kMostBlocks + 1> least_{};          // cost of the blocks before
-  std::array<std::size_t, kMostBlocks + 1> from_;        // where the last of their lines begins
+  std::size_t fewest_blocks_ = 0;                            // of a part
+  std::array<LineScores, kMostBlocks + kLanes + 1> scores_;  // prefix sums, lane by lane
+  std::array<LineSums, kMostBlocks + 1> before_;             // prefix sums
+  std::array<double, kMostBlocks + 1> least_{};              // cost of the blocks before
+  std::array<std::size_t, kMostBlocks + 1> from_;            // where the last of their lines begins
 };
 
 }  // namespace sightline::lines
