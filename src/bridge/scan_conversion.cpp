@@ -47,8 +47,13 @@ bool ScanReader::hasGeometryOf(const sensor_msgs::LaserScan& message) const {
   return geometry_ && built_beams_ == message.ranges.size() &&
          built_from_.angle_min == message.angle_min &&
          built_from_.angle_increment == message.angle_increment &&
-         built_from_.time_increment == message.time_increment &&
          built_from_.range_min == message.range_min && built_from_.range_max == message.range_max;
+}
+
+void ScanReader::takeTimes(const sensor_msgs::LaserScan& message) {
+  if (built_from_.time_increment == message.time_increment) return;
+  geometry_ = geometry_->withTimeIncrement(message.time_increment);
+  built_from_.time_increment = message.time_increment;
 }
 
 void ScanReader::rebuildGeometry(const sensor_msgs::LaserScan& message) {
@@ -64,6 +69,7 @@ void ScanReader::rebuildGeometry(const sensor_msgs::LaserScan& message) {
 scan::Scan ScanReader::read(const sensor_msgs::LaserScan& message) {
   checkMessage(message);
   if (!hasGeometryOf(message)) rebuildGeometry(message);
+  takeTimes(message);
   scan::Scan scan(geometry_, nanoseconds(message.header.stamp),
                   {message.ranges.begin(), message.ranges.end()},
                   {message.intensities.begin(), message.intensities.end()});

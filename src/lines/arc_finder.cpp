@@ -17,8 +17,9 @@ using fitting::ArcFit;
 struct ArcFinderConstants {
   // Chosen, not measured: what a run may leave unexplained, and how well the radius has to be
   // known.
-  double stray_ratio = 0.2;   // of the returns of a run
-  double radius_known = 0.5;  // standard deviation of the radius over the radius, at most
+  double stray_ratio = 0.2;      // of the returns of a run
+  double radius_known = 0.5;     // standard deviation of the radius over the radius, at most
+  std::size_t few_returns = 24;  // that tell whether to fit a circle to all of a run
   // Counted: each parameter costs the logarithm of the number of returns (Schwarz 1978).
   double arc_parameters = 3.0;
   double line_parameters = 2.0;
@@ -136,8 +137,8 @@ void ArcFinder::find(const scan::Scan& scan, const BeamArray& beams, std::vector
 bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const Run& run,
                          std::vector<Piece>& pieces, std::vector<geometry::Arc>& arcs) {
   if (run.size() < static_cast<std::size_t>(config_.min_arc_beams)) return false;
-  if (!bends(beams, run)) return false;
-  observe(scan, beams, run);
+  if (!bends(beams, run) || !mayBeRound(scan, beams, run)) return false;
+  observe(scan, beams, run, 1);
   const auto fit = fitting::fitArc(observations_, config_.gate);
   if (!fit || !isPlausible(*fit) || !isLikelier(*fit, beams, run, pieces)) return false;
   arcs.push_back(toArc(*fit, scan, beams, run));
@@ -149,11 +150,27 @@ bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const R
   return true;
 }
 
-void ArcFinder::observe(const scan::Scan& scan, const BeamArray& beams, const Run& run) {
+// Whether a few returns of a long run lie on a circle that is small enough: a fit to all of them is
+// dear, and most long runs are of walls that meet at obtuse angles.
+bool ArcFinder::mayBeRound(const scan::Scan& scan, const BeamArray& beams, const Run& run) {
+  const std::size_t stride = run.size() / kArcs.few_returns;
+  if (stride < 2) return true;
+  observe(scan, beams, run, stride);
+  const auto fit = fitting::fitArc(observations_, config_.gate);
+  if (!fit) return false;
+  const double radius_sigma = std::sqrt(fit->covariance(2, 2));
+  const auto strays = static_cast<double>(observations_.returns.size() - fit->returns);
+  return fit->radius - config_.gate * radius_sigma <= config_.max_radius &&
+         strays <= kArcs.stray_ratio * static_cast<double>(observations_.returns.size()) &&
+         isExplained(*fit);
+}
+
+void ArcFinder::observe(const scan::Scan& scan, const BeamArray& beams, const Run& run,
+                        std::size_t stride) {
   observations_.returns.clear();
   observations_.tangents.clear();
   tangent_beams_.clear();
-  for (std::size_t i = run.first; i < run.end; ++i) {
+  for (std::size_t i = run.first; i < run.end; i += stride) {
     fitting::ArcReturn of;
     of.point = {static_cast<double>(beams.x[i]), static_cast<double>(beams.y[i])};
     of.direction = {static_cast<double>(beams.direction_x[i]),
@@ -214,7 +231,11 @@ bool ArcFinder::isPlausible(const ArcFit& fit) const {
   if (returns < (1.0 - kArcs.stray_ratio) * static_cast<double>(observations_.returns.size())) {
     return false;
   }
-  if (returns < config_.min_arc_beams) return false;
+  return returns >= config_.min_arc_beams && isExplained(fit);
+}
+
+// Whether the noise of the beams explains the residuals.
+bool ArcFinder::isExplained(const ArcFit& fit) const {
   const double freedom = static_cast<double>(fit.observations()) - kArcs.arc_parameters;
   return fit.chi_square <=
          geometry::chiSquareLimit(config_.gate, freedom) * config_.misfit * config_.misfit;

@@ -90,7 +90,7 @@ void BeamArray::place(const scan::Scan& scan, std::size_t first, std::size_t end
 }
 
 void BeamArray::takeDirections(const std::shared_ptr<const scan::ScanGeometry>& geometry) {
-  if (geometry == geometry_) return;
+  if (geometry_ && geometry->sharesDirections(*geometry_)) return;
   geometry_ = geometry;
   cosines_.assign(geometry->cosines().begin(), geometry->cosines().end());
   sines_.assign(geometry->sines().begin(), geometry->sines().end());

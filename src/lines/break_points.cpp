@@ -43,7 +43,7 @@ void BreakPoints::extendForward(Piece& piece, std::size_t from, std::size_t limi
   double position = positionOn(beams_, piece.end - 1, piece.line);
   for (std::size_t i = from; i < limit; ++i) {
     const double length = positionOn(beams_, i, piece.line) - position;
-    if (!gap_.mayBridge(beams_, piece.end - 1, i, length)) return;
+    if (!gap_.mayBridge(beams_, piece.line, piece.end - 1, i, length)) return;
     const bool adjoins = i == piece.end;
     if (!isOn(piece.line, i)) continue;
     if (!adjoins && (i + 1 >= limit || !isOn(piece.line, i + 1))) continue;
@@ -60,7 +60,7 @@ void BreakPoints::extendBackward(Piece& piece, std::size_t from, std::size_t lim
   double position = positionOn(beams_, piece.first, piece.line);
   for (std::size_t i = from; i-- > limit;) {
     const double length = positionOn(beams_, i, piece.line) - position;
-    if (!gap_.mayBridge(beams_, i, piece.first, length)) return;
+    if (!gap_.mayBridge(beams_, piece.line, i, piece.first, length)) return;
     const bool adjoins = i + 1 == piece.first;
     if (!isOn(piece.line, i)) continue;
     if (!adjoins && (i <= limit || !isOn(piece.line, i - 1))) continue;
@@ -80,6 +80,8 @@ void BreakPoints::separate(Piece& before, Piece& after) const {
   const std::size_t high =
       std::min(after.end - std::min(after.end, kBreaks.keep), after.first + kBreaks.reach);
   if (low >= high || after.first - before.end > kBreaks.reach) return;
+  // Past an opening neither line goes on, even where both are one.
+  if (!adjoin(before, after, before.line) && !adjoin(before, after, after.line)) return;
   const std::size_t best = bestBreak(before.line, after.line, low, high).at;
   if (best < before.end) before.end = best;
   if (best > after.first) after.first = best;
@@ -113,7 +115,7 @@ BreakPoints::Break BreakPoints::bestBreak(const LineEstimate& before, const Line
 
 bool BreakPoints::adjoin(const Piece& before, const Piece& after, const LineEstimate& line) const {
   const std::size_t from = before.end - 1;
-  return gap_.mayBridge(beams_, from, after.first,
+  return gap_.mayBridge(beams_, line, from, after.first,
                         positionOn(beams_, after.first, line) - positionOn(beams_, from, line));
 }
 

@@ -52,8 +52,12 @@ EndPoint EndPoints::find(const Piece& piece, const Piece* neighbour, Side side) 
   if (!neighbour) return between;
   const std::size_t next = side == Side::kStart ? neighbour->end - 1 : neighbour->first;
   EndPoint crossing;
-  const bool meet = corner(piece, *neighbour, last, next, crossing);
-  return meet && crossing.variance < kCorner.vaguer * between.variance ? crossing : between;
+  if (!corner(piece, *neighbour, last, next, crossing)) return between;
+  // Where the lines are closer than the noise, the beams do not say where one ends.
+  const double sine = across(piece.line, neighbour->line);
+  const double noise = 1.0 / static_cast<double>(residualsOf(beams_, last, piece.line).weight[0]);
+  const double by_beams = between.variance + noise / (sine * sine);
+  return crossing.variance < kCorner.vaguer * by_beams ? crossing : between;
 }
 
 bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t last,

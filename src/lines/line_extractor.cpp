@@ -7,6 +7,7 @@
 #include "sightline/lines/end_points.h"
 #include "sightline/lines/line_filter.h"
 #include "sightline/lines/merging.h"
+#include "sightline/lines/splitting.h"
 
 namespace sightline::lines {
 
@@ -14,6 +15,8 @@ namespace {
 
 // Pieces that something small in front of a wall falls into, at most.
 constexpr std::size_t kMostHiding = 4;
+// A break moves its lines, and these the breaks at their other ends.
+constexpr int kSettlingRounds = 2;
 
 Piece shifted(const Piece& piece, std::size_t revolution) {
   Piece result = piece;
@@ -47,6 +50,7 @@ const std::vector<geometry::LineSegment>& LineExtractor::extract(const scan::Sca
   dropFragments();
   placeBreaks();
   refinePieces();
+  splitPieces();
   extendBehindSmallThings();
   mergePieces();
   dropHidden();
@@ -61,6 +65,7 @@ void LineExtractor::reserve(std::size_t beams) {
   segments_.clear();
   arcs_.clear();
   pieces_.reserve(beams / LineFilter::kFewestToStart + 1);
+  parts_.reserve(beams / LineFilter::kFewestToStart + 1);
   segments_.reserve(beams / static_cast<std::size_t>(config_.min_beams) + 1);
   arcs_.reserve(beams / static_cast<std::size_t>(config_.min_arc_beams) + 1);
 }
@@ -95,6 +100,23 @@ void LineExtractor::refinePieces() {
   const double gate_squared = config_.gate * config_.gate;
   const auto undetermined = [&](Piece& piece) { return !refine(beams_, gate_squared, piece); };
   pieces_.erase(std::remove_if(pieces_.begin(), pieces_.end(), undetermined), pieces_.end());
+}
+
+void LineExtractor::splitPieces() {
+  Splitting splitting(beams_, config_);
+  parts_.clear();
+  bool is_split = false;
+  for (const Piece& piece : pieces_) is_split |= splitting.split(piece, parts_);
+  pieces_.swap(parts_);
+  bool is_settled = false;
+  for (int round = 0; round < kSettlingRounds; ++round) {
+    for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
+      is_settled |= splitting.settle(pieces_[i], pieces_[i + 1]);
+    }
+  }
+  if (!is_split && !is_settled) return;
+  placeBreaks();
+  refinePieces();
 }
 
 void LineExtractor::dropFragments() {
@@ -239,6 +261,7 @@ geometry::LineSegment LineExtractor::segmentOf(const Piece& piece, const EndPoin
   const Eigen::Vector2d along(line.alongX(), line.alongY());
   geometry::LineSegment segment;
   segment.line = line.polar();
+  segment.line.covariance *= unevenness(beams_, config_.gate * config_.gate, piece);
   segment.ends = {foot + start.position * along, foot + end.position * along};
   segment.start_sigma = std::sqrt(start.variance);
   segment.end_sigma = std::sqrt(end.variance);

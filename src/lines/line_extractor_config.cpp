@@ -31,6 +31,8 @@ void LineExtractorConfig::visit(config::FieldVisitor& visitor) {
       {"m", {0.0, 100.0}, "of an arc; a wall that bends less counts as straight; 0: no arcs"});
   visitor.integer("min_arc_beams", min_arc_beams,
                   {"beams", {4.0, 1e6}, "arcs of fewer beams are left out"});
+  visitor.integer("start_beams", start_beams,
+                  {"beams", {2.0, 1000.0}, "of a batch start of method plain (pears section 4.6)"});
 }
 
 }  // namespace sightline::lines

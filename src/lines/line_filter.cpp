@@ -239,7 +239,7 @@ std::size_t LineFilter::countBridged(const Validation& validation, std::size_t n
   double position = positionOn(beams_, from, piece_.line);
   for (std::size_t i = 0; i < count; ++i) {
     const double length = static_cast<double>(validation.position[i]) - position;
-    if (!gap_.mayBridge(beams_, from, next + i, length)) return i;
+    if (!gap_.mayBridge(beams_, piece_.line, from, next + i, length)) return i;
     from = next + i;
     position = static_cast<double>(validation.position[i]);
   }
@@ -283,7 +283,7 @@ std::size_t LineFilter::lookAhead(std::size_t next, std::size_t end) const {
   const double position = positionOn(beams_, last, piece_.line);
   const Validation validation = validate(next);
   for (std::size_t i = 1; i + 1 < std::min(kBlock, end - next); ++i) {
-    if (!gap_.mayBridge(beams_, last, next + i,
+    if (!gap_.mayBridge(beams_, piece_.line, last, next + i,
                         static_cast<double>(validation.position[i]) - position))
       return 0;
     if (validation.excess[i] <= 0.0F && validation.excess[i + 1] <= 0.0F) return i;

@@ -76,7 +76,8 @@ bool Merging::merge(Piece& before, const Piece& after) const {
   if (line.normal_x * after.line.normal_x + line.normal_y * after.line.normal_y < 0.5) return false;
   const double position = positionOn(beams_, before.end - 1, line);
   const double next_position = positionOn(beams_, after.first, line);
-  if (!gap_.mayBridge(beams_, before.end - 1, after.first, next_position - position)) return false;
+  const double length = next_position - position;
+  if (!gap_.mayBridge(beams_, line, before.end - 1, after.first, length)) return false;
   const double between = 0.5 * (position + next_position);
   if (!mayBeOne(before, after, between)) return false;
   Piece joined = before;

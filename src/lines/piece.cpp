@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sightline/geometry/statistics.h"
+#include "sightline/lines/beam_residuals.h"
 #include "sightline/lines/normal_equations.h"
 
 namespace sightline::lines {
@@ -19,6 +20,13 @@ struct RefineConstants {
   double few_returns = 0.2;
 };
 constexpr RefineConstants kRefine{};
+
+// Blocks in which a wall is looked at for its unevenness, and returns of one.
+struct BlockConstants {
+  std::size_t most = 16;
+  std::size_t fewest = 4;
+};
+constexpr BlockConstants kBlocks{};
 
 // A step to the maximum of likelihood; how far it was, negative where there is none.
 double take(const NormalEquations& equations, Piece& piece) {
@@ -79,6 +87,33 @@ bool isWall(const Piece& piece, const LineExtractorConfig& config) {
   if (piece.beams < config.min_beams) return false;
   const double limit = geometry::chiSquareLimit(config.gate, piece.beams - 2.0);
   return piece.chi_square <= limit * config.misfit * config.misfit;
+}
+
+// Means over blocks of returns show what neighbours share.
+SIGHTLINE_VECTOR_CLONES
+double unevenness(const BeamArray& beams, double gate_squared, const Piece& piece) {
+  const double freedom = piece.beams - 2.0;
+  const double alone = piece.chi_square / freedom - std::sqrt(2.0 / freedom);
+  const std::size_t block = std::max(kBlocks.fewest, piece.size() / kBlocks.most);
+  const std::size_t blocks = piece.size() / block;
+  if (blocks < 4) return std::max(1.0, alone);
+  const auto gate = static_cast<float>(gate_squared);
+  double shared = 0.0;
+  for (std::size_t k = 0; k < blocks; ++k) {
+    const std::size_t end = k + 1 == blocks ? piece.end : piece.first + (k + 1) * block;
+    Packet weight{};
+    Packet distance{};
+    for (std::size_t i = piece.first + k * block; i < end; i += kLanes) {
+      const BeamResiduals of = residualsOf(beams, i, piece.line);
+      const Packet taken = of.squared() <= gate ? firstLanes(end - i) : all(0.0F);
+      weight += taken * of.weight;
+      distance += taken * of.weight * of.distance;
+    }
+    const double total = sum(weight);
+    if (total > 0.0) shared += sum(distance) * sum(distance) / total;
+  }
+  const double of_blocks = static_cast<double>(blocks) - 2.0;
+  return std::max({1.0, alone, shared / of_blocks - std::sqrt(2.0 / of_blocks)});
 }
 
 double extent(const BeamArray& beams, const Piece& piece) {

@@ -1,5 +1,6 @@
 #include "sightline/lines/plain_extractor.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -44,6 +45,13 @@ double predictedRange(const PolarLine& line, double angle) {  // eq. 27
 Eigen::RowVector2d observationJacobian(const PolarLine& line, double angle) {  // eq. 30
   const double cosine = std::cos(line.phi - angle);
   return {1.0 / cosine, line.rho * std::tan(line.phi - angle) / cosine};
+}
+
+// Distance of neighbouring beams along a line, at one of them.
+double spacingAt(const scan::Scan& scan, std::size_t beam, const PolarLine& line) {
+  const double facing = std::abs(line.normal().dot(scan.direction(beam)));
+  const double across = scan.ranges()[beam] * std::abs(scan.geometry()->angleIncrement());
+  return across / std::max(facing, 0.01);
 }
 
 std::vector<fitting::NoisyPoint> pointsSeenFrom(const scan::Scan& scan,
@@ -152,7 +160,8 @@ void PlainExtractor::report(const scan::Scan& scan, const Track& track) {
   const auto sigmaAlong = [&](std::size_t beam) {
     const Eigen::RowVector3d moved =
         along.transpose() * motionJacobian(scan, beam, scan.point(beam));
-    return std::sqrt(along.dot(scan.covariance(beam) * along) +
+    const double spacing = spacingAt(scan, beam, segment.line);
+    return std::sqrt(along.dot(scan.covariance(beam) * along) + spacing * spacing / 3.0 +
                      moved * motionTo(scan, beam) * moved.transpose());
   };
   segment.start_sigma = sigmaAlong(track.first);
@@ -176,7 +185,7 @@ const std::vector<geometry::LineSegment>& PlainExtractor::extract(const scan::Sc
     if (tracking) report(scan, track);
     tracking = false;
     fresh.push_back(beam);
-    if (fresh.size() < kStart) continue;
+    if (fresh.size() < static_cast<std::size_t>(config_.start_beams)) continue;
     tracking = start(scan, fresh, track);
     fresh.clear();
   }

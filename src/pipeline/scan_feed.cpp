@@ -23,11 +23,16 @@ ScanFeed::ScanFeed(const FeedConfig& config, const Frames& frames, const FeedNee
 std::size_t ScanFeed::addScanner() {
   counts_.emplace_back();
   before_.emplace_back();
+  noise_.emplace_back(config_.noise);
   return counts_.size() - 1;
 }
 
 void ScanFeed::add(std::size_t scanner, scan::Scan scan, std::int64_t now) {
-  scan::applyNoise(config_.noise, scan);
+  if (config_.noise.kind == scan::NoiseKind::kEstimated) {
+    noise_[scanner].apply(scan);
+  } else {
+    scan::applyNoise(config_.noise, scan);
+  }
   enqueue({scanner, std::move(scan), std::nullopt, now});
 }
 
@@ -46,6 +51,11 @@ void ScanFeed::enqueue(ArrivedScan arrived) {
     --place;
   }
   waiting_.insert(place, std::move(arrived));
+}
+
+const scan::RangeNoise* ScanFeed::learnedNoise(std::size_t scanner) const {
+  const scan::RangeNoise& noise = noise_[scanner].noise();
+  return noise.is_learned ? &noise : nullptr;
 }
 
 void ScanFeed::refuse(std::size_t scanner, const std::string& reason) {

@@ -32,6 +32,19 @@ void checkAngles(const std::vector<double>& angles) {
   if (span > kTurn) throw InvalidScan(fmt::format("beams over {} rad, more than a turn", span));
 }
 
+void checkTimes(const std::vector<double>& offsets, std::size_t beams) {
+  if (offsets.size() != beams) {
+    throw InvalidScan(fmt::format("{} time offsets for {} beams", offsets.size(), beams));
+  }
+  if (!allFinite(offsets)) throw InvalidScan("a time offset that is not finite");
+}
+
+std::vector<double> evenTimes(std::size_t beams, double increment) {
+  std::vector<double> offsets(beams);
+  for (std::size_t i = 0; i < beams; ++i) offsets[i] = static_cast<double>(i) * increment;
+  return offsets;
+}
+
 void checkLimits(double range_min, double range_max) {
   if (!(range_min >= 0.0) || !(range_min < range_max)) {
     throw InvalidScan(fmt::format("range limits {} to {} m", range_min, range_max));
@@ -40,27 +53,33 @@ void checkLimits(double range_min, double range_max) {
 
 }  // namespace
 
+ScanGeometry::Directions::Directions(std::vector<double> of) : angles(std::move(of)) {
+  checkAngles(angles);
+  const std::size_t beams = angles.size();
+  increment = beams > 1 ? (angles.back() - angles.front()) / static_cast<double>(beams - 1) : 0.0;
+  cosines.reserve(beams);
+  sines.reserve(beams);
+  for (const double angle : angles) {
+    cosines.push_back(std::cos(angle));
+    sines.push_back(std::sin(angle));
+  }
+}
+
 ScanGeometry::ScanGeometry(std::vector<double> angles, std::vector<double> time_offsets,
                            double range_min, double range_max)
-    : angles_(std::move(angles)),
+    : directions_(std::make_shared<Directions>(std::move(angles))),
       time_offsets_(std::move(time_offsets)),
       range_min_(range_min),
       range_max_(range_max) {
-  checkAngles(angles_);
   checkLimits(range_min, range_max);
-  if (time_offsets_.size() != angles_.size()) {
-    throw InvalidScan(
-        fmt::format("{} time offsets for {} beams", time_offsets_.size(), angles_.size()));
-  }
-  if (!allFinite(time_offsets_)) throw InvalidScan("a time offset that is not finite");
-  angle_increment_ =
-      beams() > 1 ? (angles_.back() - angles_.front()) / static_cast<double>(beams() - 1) : 0.0;
-  cosines_.reserve(beams());
-  sines_.reserve(beams());
-  for (const double angle : angles_) {
-    cosines_.push_back(std::cos(angle));
-    sines_.push_back(std::sin(angle));
-  }
+  checkTimes(time_offsets_, beams());
+}
+
+std::shared_ptr<const ScanGeometry> ScanGeometry::withTimeIncrement(double time_increment) const {
+  auto result = std::make_shared<ScanGeometry>(*this);
+  result->time_offsets_ = evenTimes(beams(), time_increment);
+  checkTimes(result->time_offsets_, beams());
+  return result;
 }
 
 std::shared_ptr<const ScanGeometry> ScanGeometry::uniform(double angle_min, double angle_increment,
@@ -70,25 +89,22 @@ std::shared_ptr<const ScanGeometry> ScanGeometry::uniform(double angle_min, doub
     throw InvalidScan(fmt::format("an angle increment of {}", angle_increment));
   }
   std::vector<double> angles(beams);
-  std::vector<double> offsets(beams);
   for (std::size_t i = 0; i < beams; ++i) {
-    const auto index = static_cast<double>(i);
-    angles[i] = i == 0 ? angle_min : angle_min + index * angle_increment;
-    offsets[i] = index * time_increment;
+    angles[i] = i == 0 ? angle_min : angle_min + static_cast<double>(i) * angle_increment;
   }
-  return std::make_shared<ScanGeometry>(std::move(angles), std::move(offsets), range_min,
-                                        range_max);
+  return std::make_shared<ScanGeometry>(std::move(angles), evenTimes(beams, time_increment),
+                                        range_min, range_max);
 }
 
 std::shared_ptr<const ScanGeometry> ScanGeometry::mirrored() const {
-  std::vector<double> angles(angles_);
+  std::vector<double> angles(this->angles());
   for (double& angle : angles) angle = -angle;
   return std::make_shared<ScanGeometry>(std::move(angles), time_offsets_, range_min_, range_max_);
 }
 
 bool ScanGeometry::isFullCircle() const {
-  const double gap = 2.0 * geometry::kPi - std::abs(angles_.back() - angles_.front());
-  return beams() > 2 && gap < 1.5 * std::abs(angle_increment_);
+  const double gap = 2.0 * geometry::kPi - std::abs(angles().back() - angles().front());
+  return beams() > 2 && gap < 1.5 * std::abs(angleIncrement());
 }
 
 }  // namespace sightline::scan

@@ -157,5 +157,16 @@ TEST(ScanConversion, GoesThereAndBack) {
   EXPECT_EQ(back.ranges[4], 5.0F);
 }
 
+TEST(ScanReader, DoesTheTrigonometryOnceWhereOnlyTheTimesDiffer) {
+  ScanReader reader;
+  auto scan_message = message();
+  const scan::Scan first = reader.read(scan_message);
+  scan_message.time_increment = 0.002F;
+  const scan::Scan second = reader.read(scan_message);
+  EXPECT_TRUE(second.geometry()->sharesDirections(*first.geometry()));
+  EXPECT_NEAR(second.geometry()->timeOffsets()[4], 0.008, 1e-9);
+  EXPECT_NEAR(first.geometry()->timeOffsets()[4], 0.004, 1e-9);
+}
+
 }  // namespace
 }  // namespace sightline::bridge

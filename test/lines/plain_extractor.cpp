@@ -119,5 +119,46 @@ TEST(PlainExtractor, SkipsReturnsThatAreNotValid) {
   EXPECT_TRUE(extractor.extract(scan).empty());
 }
 
+// With a start of many returns the direction is known well before the recursion begins.
+TEST(PlainExtractor, LongerBatchStartsHoldWithMoreNoise) {
+  const PolarLine wall{1.5, 0.2, Eigen::Matrix2d::Zero()};
+  std::vector<std::size_t> segments;
+  for (const int start_beams : {5, 40}) {
+    test::Gauss gauss(3);
+    LineExtractorConfig config;
+    config.start_beams = start_beams;
+    PlainExtractor extractor(config);
+    std::size_t count = 0;
+    for (int run = 0; run < 50; ++run) {
+      count += extractor.extract(plainScan(wall, 0.0, 0.005, gauss)).size();
+    }
+    segments.push_back(count);
+  }
+  EXPECT_GT(segments[0], 75U);
+  EXPECT_LT(segments[1], 60U);
+}
+
+// A wall that ends between two beams.
+TEST(PlainExtractor, EndsAreWithinTheirSigmas) {
+  test::Gauss gauss(4);
+  LineExtractorConfig config;
+  config.start_beams = 40;
+  PlainExtractor extractor(config);
+  int ends = 0;
+  int within = 0;
+  for (int run = 0; run < 200; ++run) {
+    const double from = gauss.uniform(-1.0, -0.8);
+    const double to = gauss.uniform(0.8, 1.0);
+    const auto& segments = extractor.extract(test::wallAhead(2.0, from, to).take(gauss));
+    if (segments.size() != 1) continue;
+    const geometry::LineSegment& segment = segments[0];
+    ends += 2;
+    within += std::abs(segment.ends.start.x() - to) <= 2.0 * segment.start_sigma;
+    within += std::abs(segment.ends.end.x() - from) <= 2.0 * segment.end_sigma;
+  }
+  EXPECT_GT(ends, 200);
+  EXPECT_GT(within, 93 * ends / 100);
+}
+
 }  // namespace
 }  // namespace sightline::lines

@@ -71,6 +71,7 @@ TEST(SettingLimits, EveryScanEnds) {
   expectLimits(&LineExtractorConfig::min_beams, 3, 1'000'000, 1);
   expectLimits(&LineExtractorConfig::max_radius, 0.0, 100.0, 0.1);
   expectLimits(&LineExtractorConfig::min_arc_beams, 4, 1'000'000, 1);
+  expectLimits(&LineExtractorConfig::start_beams, 2, 1000, 1);
 }
 
 // The widest gaps together with the shortest walls: every search at its longest.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -67,6 +68,26 @@ TEST(Walls, AnOpeningSeparatesThem) {
       EXPECT_LT(segment.ends.length(), 1.6);
     }
     EXPECT_EQ(near, 2U);
+  }
+}
+
+// Far along a corridor one beam alone goes into a door, and where it ends tells.
+TEST(Walls, OneBeamThatPassesThroughIsAnOpeningWhereBeamsAreFarApart) {
+  Gauss gauss(36);
+  for (const bool is_open : {false, true}) {
+    ScanOf of = test::wallAhead(1.0, -12.0, -0.5);
+    of.noise.sigma = 0.005;
+    scan::Scan scan = of.take(gauss);
+    // Beams meet the wall 0.4 to 0.6 m apart, 10 m on.
+    std::size_t at = scan.beams() - 1;
+    while (!scan.isValid(at) || std::abs(scan.point(at).x()) > 9.0) --at;
+    if (is_open) scan.setRange(at, scan.ranges()[at] + 1.0);
+    const auto segments = linesOf(of, scan);
+    double longest = 0.0;
+    for (const LineSegment& segment : segments) {
+      longest = std::max(longest, segment.ends.length());
+    }
+    EXPECT_EQ(longest > 9.0, !is_open);
   }
 }
 

@@ -134,5 +134,18 @@ TEST(ScanGeometry, KnowsAFullCircle) {
   EXPECT_TRUE(turn(static_cast<double>(0.0174532942f), 361));
 }
 
+TEST(ScanGeometry, AnotherTimeIncrementSharesTheDirections) {
+  const auto geometry = ScanGeometry::uniform(-1.0, 0.1, 21, 1e-3, 0.1, 30.0);
+  const auto slower = geometry->withTimeIncrement(2e-3);
+  EXPECT_TRUE(slower->sharesDirections(*geometry));
+  EXPECT_EQ(slower->sines().data(), geometry->sines().data());
+  EXPECT_DOUBLE_EQ(slower->timeOffsets()[20], 0.04);
+  EXPECT_DOUBLE_EQ(geometry->timeOffsets()[20], 0.02);
+  EXPECT_EQ(slower->rangeMax(), 30.0);
+  EXPECT_FALSE(slower->sharesDirections(*geometry->mirrored()));
+  EXPECT_EQ(faultOf([&] { geometry->withTimeIncrement(kNan); }),
+            "a time offset that is not finite");
+}
+
 }  // namespace
 }  // namespace sightline::scan

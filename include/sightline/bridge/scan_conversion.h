@@ -19,6 +19,8 @@ class ScanReader {
 
  private:
   bool hasGeometryOf(const sensor_msgs::LaserScan& message) const;
+  // Many drivers measure the time increment anew for each scan.
+  void takeTimes(const sensor_msgs::LaserScan& message);
   void rebuildGeometry(const sensor_msgs::LaserScan& message);
 
   sensor_msgs::LaserScan built_from_;  // its ranges are dropped

@@ -33,10 +33,12 @@ class ArcFinder {
   enum class Side { kStart, kEnd };
   bool consider(const scan::Scan& scan, const BeamArray& beams, const Run& run,
                 std::vector<Piece>& pieces, std::vector<geometry::Arc>& arcs);
-  void observe(const scan::Scan& scan, const BeamArray& beams, const Run& run);
+  bool mayBeRound(const scan::Scan& scan, const BeamArray& beams, const Run& run);
+  void observe(const scan::Scan& scan, const BeamArray& beams, const Run& run, std::size_t stride);
   void observeTangent(const scan::Scan& scan, std::size_t beam, Side side);
   Eigen::Matrix3d motionCovariance(const scan::Scan& scan, const BeamArray& beams, const Run& run,
                                    const fitting::ArcFit& fit);
+  bool isExplained(const fitting::ArcFit& fit) const;
   bool isPlausible(const fitting::ArcFit& fit) const;
   bool isLikelier(const fitting::ArcFit& fit, const BeamArray& beams, const Run& run,
                   const std::vector<Piece>& pieces) const;

@@ -38,6 +38,7 @@ class LineExtractor {
   void findPieces(const scan::Scan& scan);
   std::size_t findPiecesIn(std::size_t first, std::size_t end, std::size_t most);
   void refinePieces();
+  void splitPieces();
   void dropFragments();
   void mergePieces();
   std::size_t mergeWithOneFrom(std::size_t first, const Merging& merging, Piece& wall) const;
@@ -54,6 +55,7 @@ class LineExtractor {
   BeamArray beams_;
   SweepNoise sweep_noise_;
   std::vector<Piece> pieces_;
+  std::vector<Piece> parts_;  // of pieces, while they are split
   ArcFinder arc_finder_;
   std::vector<geometry::LineSegment> segments_;
   std::vector<geometry::Arc> arcs_;

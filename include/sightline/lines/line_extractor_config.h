@@ -16,6 +16,7 @@ struct LineExtractorConfig {
   int min_beams = 10;
   double max_radius = 2.5;  ///< of an arc [m]; 0: no arcs
   int min_arc_beams = 6;
+  int start_beams = 5;  ///< of PlainExtractor: k of pears section 4.6
 
   void visit(config::FieldVisitor& visitor);
 };

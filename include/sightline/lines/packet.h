@@ -51,6 +51,12 @@ inline Packet firstLanes(std::size_t count) {
                 count > 3 ? 1.0F : 0.0F};
 }
 
+/// Sums of the lanes of four packets.
+inline Packet sums(const Packet& a, const Packet& b, const Packet& c, const Packet& d) {
+  return Packet{a[0], b[0], c[0], d[0]} + Packet{a[1], b[1], c[1], d[1]} +
+         Packet{a[2], b[2], c[2], d[2]} + Packet{a[3], b[3], c[3], d[3]};
+}
+
 inline double sum(const Packet& packet) {
   return static_cast<double>(packet[0] + packet[2]) + static_cast<double>(packet[1] + packet[3]);
 }

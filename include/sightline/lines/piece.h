@@ -30,6 +30,11 @@ bool refine(const BeamArray& beams, double gate_squared, Piece& piece);
 /// Whether it has enough returns, and the noise explains their residuals.
 bool isWall(const Piece& piece, const LineExtractorConfig& config);
 
+/// What the covariance of a refined piece is to be multiplied by: 1 where it is straight. Where the
+/// noise does not explain its residuals, or those that neighbours share, by χ² over its degrees of
+/// freedom; chance alone makes little of it.
+double unevenness(const BeamArray& beams, double gate_squared, const Piece& piece);
+
 /// Length of a piece from its first return to its last along the line [m].
 double extent(const BeamArray& beams, const Piece& piece);
 

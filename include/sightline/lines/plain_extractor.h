@@ -20,15 +20,12 @@ namespace sightline::lines {
 /// as if the errors of all stretches of time were independent, which is true of the walk alone.
 class PlainExtractor {
  public:
-  /// Points of the batch start (k of section 4.6).
-  static constexpr std::size_t kStart = 5;
-
-  /// Uses gate and min_beams of the settings alone. Throws config::Error.
+  /// Uses gate, min_beams and start_beams of the settings alone. Throws config::Error.
   explicit PlainExtractor(const LineExtractorConfig& config = {});
 
   /// Segments in the scan's frame at its stamp, in the order of their first beams; kinds of ends
-  /// are not found; their sigmas are those of the outermost returns along the line. Valid until the
-  /// next call.
+  /// are not found; a wall ends anywhere between its outermost return and the beam past it, and
+  /// their sigmas along the line say so. Valid until the next call.
   const std::vector<geometry::LineSegment>& extract(const scan::Scan& scan);
 
  private:

@@ -30,30 +30,39 @@ class ScanGeometry {
                                                      std::size_t beams, double time_increment,
                                                      double range_min, double range_max);
 
+  /// The same sensor with another time from beam to beam; the trigonometry is not done again.
+  std::shared_ptr<const ScanGeometry> withTimeIncrement(double time_increment) const;
   /// Geometry of the same sensor upside down: every angle negated.
   std::shared_ptr<const ScanGeometry> mirrored() const;
 
-  std::size_t beams() const { return angles_.size(); }
-  const std::vector<double>& angles() const { return angles_; }
-  const std::vector<double>& cosines() const { return cosines_; }
-  const std::vector<double>& sines() const { return sines_; }
+  std::size_t beams() const { return angles().size(); }
+  const std::vector<double>& angles() const { return directions_->angles; }
+  const std::vector<double>& cosines() const { return directions_->cosines; }
+  const std::vector<double>& sines() const { return directions_->sines; }
+  /// Whether one was made of the other, and the directions of the beams are the same.
+  bool sharesDirections(const ScanGeometry& other) const {
+    return directions_ == other.directions_;
+  }
   const std::vector<double>& timeOffsets() const { return time_offsets_; }
   double rangeMin() const { return range_min_; }
   double rangeMax() const { return range_max_; }
   /// Mean angle from one beam to the next; negative for a sensor that scans clockwise; 0 for a
   /// single beam.
-  double angleIncrement() const { return angle_increment_; }
+  double angleIncrement() const { return directions_->increment; }
   /// Whether the last beam is the first one's neighbour, so that a wall may cross the seam.
   bool isFullCircle() const;
 
  private:
-  std::vector<double> angles_;
-  std::vector<double> cosines_;
-  std::vector<double> sines_;
+  struct Directions {
+    explicit Directions(std::vector<double> of);
+    std::vector<double> angles, cosines, sines;
+    double increment;
+  };
+
+  std::shared_ptr<const Directions> directions_;
   std::vector<double> time_offsets_;
   double range_min_;
   double range_max_;
-  double angle_increment_;
 };
 
 }  // namespace sightline::scan
