@@ -1,5 +1,6 @@
 #include "sightline/pipeline/estimators.h"
 
+#include <cmath>
 #include <utility>
 
 #include "sightline/motion/sweep.h"
@@ -12,6 +13,26 @@ namespace {
 
 // Scans of others are not compared with what this scanner has seen.
 constexpr std::size_t kOdometryScanner = 0;
+
+// Uncertainty of the motion over a break in the odometry [m, rad].
+constexpr double kBridgedPosition = 0.1;
+constexpr double kBridgedHeading = 0.1;
+
+// A robot cannot get farther while its clock is set [m, rad]; where the odometry is elsewhere, a
+// recording begins again.
+constexpr double kSamePosition = 1.0;
+constexpr double kSameHeading = 1.0;
+
+void flagBreak(tracking::TrackerUpdate& update) {
+  if (update.state == tracking::TrackerState::kTracking) {
+    update.state = tracking::TrackerState::kDegraded;
+  }
+}
+
+bool isSamePlace(const Pose2& a, const Pose2& b) {
+  const Pose2 step = geometry::between(a, b);
+  return step.translation().norm() < kSamePosition && std::abs(step.theta()) < kSameHeading;
+}
 
 }  // namespace
 
@@ -37,7 +58,7 @@ void Estimators::configureLines(const LinesConfig& config) {
 }
 
 Estimates Estimators::take(LocatedScan located) {
-  if (located.clock_restarted) restart();
+  if (located.clock_restarted) restart(located);
   Estimates estimates;
   estimates.located = std::move(located);
   removeFloor(estimates.located);
@@ -48,10 +69,12 @@ Estimates Estimators::take(LocatedScan located) {
   return estimates;
 }
 
-void Estimators::restart() {
+void Estimators::restart(const LocatedScan& located) {
   if (odometry_) odometry_->restartClock();
   if (!rooms_) return;
-  if (config_.rooms->initial_pose) {
+  const bool goes_on =
+      T_odom_base_ && located.T_odom_base && isSamePlace(*T_odom_base_, *located.T_odom_base);
+  if (config_.rooms->initial_pose && !goes_on) {
     rooms_->setPose(config_.rooms->start());
   } else {
     rooms_->restartClock();
@@ -115,7 +138,13 @@ void Estimators::extract(Estimates& estimates) {
 void Estimators::track(Estimates& estimates) {
   const LocatedScan& located = estimates.located;
   if (!located.T_odom_base || !located.T_base_sensor) return;
-  estimates.rooms = rooms_->update(located.scan, *located.T_odom_base, *located.T_base_sensor);
+  T_odom_base_ = located.T_odom_base;
+  if (located.odometry_broke) rooms_->inflate(kBridgedPosition, kBridgedHeading);
+  const Pose2 T_path_base = located.T_path_base.value_or(*located.T_odom_base);
+  estimates.rooms = rooms_->update(located.scan, T_path_base, *located.T_base_sensor);
+  if (!estimates.rooms) return;
+  estimates.rooms->T_map_odom = estimates.rooms->pose.mean * located.T_odom_base->inverse();
+  if (located.odometry_broke) flagBreak(*estimates.rooms);
 }
 
 }  // namespace sightline::pipeline

@@ -101,6 +101,11 @@ void ScanOdometry::restartClock() {
   before_.reset();
 }
 
+// Wheels whose breaks nobody has bridged are taken as they are.
+const std::optional<Pose2>& ScanOdometry::pathOf(const LocatedScan& located) {
+  return located.T_path_base ? located.T_path_base : located.T_odom_base;
+}
+
 // The base goes on as before but for the turn.
 MotionPrior ScanOdometry::asBefore(double elapsed, double turn) const {
   const Eigen::Vector3d& twist = before_->twist.mean;
@@ -115,9 +120,9 @@ ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
   if (!before_) return std::nullopt;
   const double elapsed = 1e-9 * static_cast<double>(located.scan.stamp - before_->stamp);
   Prior prior;
-  if (located.T_odom_base && before_->T_odom_base) {
-    prior =
-        wheelPrior(config_.wheels, geometry::between(*before_->T_odom_base, *located.T_odom_base));
+  const auto& T_path_base = pathOf(located);
+  if (T_path_base && before_->T_path_base && !located.odometry_broke) {
+    prior = wheelPrior(config_.wheels, geometry::between(*before_->T_path_base, *T_path_base));
   }
   if (!located.turn) return prior;
   // The gyroscope knows the turn better.
@@ -141,7 +146,7 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
                                       : reckoner_.update(located.scan, T_base_sensor, prior);
   if (!update) return update;
   is_new_ = false;
-  before_ = Before{located.scan.stamp, located.T_odom_base, update->twist};
+  before_ = Before{located.scan.stamp, pathOf(located), update->twist};
   return update;
 }
 

@@ -63,12 +63,13 @@ class ScanOdometry {
  private:
   struct Before {
     std::int64_t stamp = 0;
-    std::optional<geometry::Pose2> T_odom_base;  // by the wheels
+    std::optional<geometry::Pose2> T_path_base;  // by the wheels
     geometry::UncertainTwist2 twist;
   };
   using Update = dead_reckoning::DeadReckoningUpdate;
   using Prior = std::optional<dead_reckoning::MotionPrior>;
 
+  static const std::optional<geometry::Pose2>& pathOf(const LocatedScan& located);
   Prior priorOf(const LocatedScan& located) const;
   dead_reckoning::MotionPrior asBefore(double elapsed, double turn) const;
   std::optional<Update> matchLeaning(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
