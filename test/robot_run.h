@@ -140,8 +140,12 @@ inline RobotRun runOffline(const RobotInput& input, const TemporaryFolder& folde
   run.status = result.status;
   run.output = result.output;
   if (run.isCrash()) return run;
-  if (std::filesystem::exists(folder.path("out/rooms.tum"))) judgeRooms(input, folder, run);
-  if (std::filesystem::exists(folder.path("out/odometry.tum"))) judgeOdometry(input, folder, run);
+  const auto hasPoses = [&](const char* name) {
+    return std::filesystem::exists(folder.path(name)) &&
+           std::filesystem::file_size(folder.path(name)) > 0;
+  };
+  if (hasPoses("out/rooms.tum")) judgeRooms(input, folder, run);
+  if (hasPoses("out/odometry.tum")) judgeOdometry(input, folder, run);
   return run;
 }
 

@@ -73,11 +73,11 @@ void BagFeed::open(const std::string& path) {
     bags_.back().open(path, rosbag::bagmode::Read);
   } catch (const rosbag::BagUnindexedException&) {
     throw config::Error(path, 0, "", "it was not closed, and has no index: " + reindexing(path));
-  } catch (const rosbag::BagIOException& fault) {
-    throw config::Error(path, 0, "",
-                        isBag(path) ? "it is cut short: " + reindexing(path) : fault.what());
   } catch (const ros::Exception& fault) {
-    throw config::Error(path, 0, "", fault.what());
+    // What is cut within its records is found by many names.
+    const bool is_cut = isBag(path);
+    throw config::Error(path, 0, "",
+                        is_cut ? "it is cut short: " + reindexing(path) : fault.what());
   }
 }
 

@@ -112,7 +112,7 @@ void LiveFeed::deliver(pipeline::FeedResult& result) {
   InputMonitor& monitor = *scanners_[result.scanner].monitor;
   if (!result.located) return monitor.drop(result.reason);
   if (result.located->clock_restarted) {
-    monitor.warn("the clock was set back: estimators go on in the new time");
+    monitor.warn("the clock was set: started again in the new time");
   }
   if (result.located->odometry_broke) {
     monitor.warn("the odometry was reset or leaped: bridged by the scans");

@@ -1,5 +1,7 @@
 #include "sightline/bridge/transform_input.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "sightline/bridge/pose_conversion.h"
@@ -8,6 +10,8 @@
 namespace sightline::bridge {
 
 namespace {
+
+constexpr const char* kAuthority = "sightline";
 
 std::string faultOf(const geometry_msgs::TransformStamped& transform) {
   if (transform.child_frame_id.empty() || transform.header.frame_id.empty()) {
@@ -26,48 +30,66 @@ std::string named(const geometry_msgs::TransformStamped& transform, const std::s
 
 std::vector<std::string> TransformInput::take(const tf2_msgs::TFMessage& message, bool is_static,
                                               std::int64_t now) {
-  std::vector<std::string> faults;
-  for (const auto& transform : message.transforms) {
-    std::string fault = take(transform, is_static, now);
-    if (!fault.empty()) faults.push_back(std::move(fault));
+  Faults faults;
+  for (Transform transform : message.transforms) {
+    transform.header.frame_id = withoutSlash(transform.header.frame_id);
+    transform.child_frame_id = withoutSlash(transform.child_frame_id);
+    const std::string fault = faultOf(transform);
+    if (!fault.empty()) {
+      faults.push_back(named(transform, fault));
+      continue;
+    }
+    transform.transform.rotation = normalized(transform.transform.rotation);
+    if (is_static) {
+      buffer_.setTransform(transform, kAuthority, is_static);
+    } else {
+      admit(transform, now, faults);
+    }
   }
   return faults;
 }
 
-std::string TransformInput::take(geometry_msgs::TransformStamped transform, bool is_static,
-                                 std::int64_t now) {
-  transform.header.frame_id = withoutSlash(transform.header.frame_id);
-  transform.child_frame_id = withoutSlash(transform.child_frame_id);
-  std::string fault = faultOf(transform);
-  if (fault.empty() && !is_static) fault = judge(transform, now);
-  if (!fault.empty()) return named(transform, fault);
+void TransformInput::admit(const Transform& transform, std::int64_t now, Faults& faults) {
   const std::int64_t stamp = nanoseconds(transform.header.stamp);
+  const std::string fault = pipeline::faultOfStamp(stamp);
+  if (!fault.empty()) return faults.push_back(named(transform, fault));
   Child& child = children_[transform.child_frame_id];
-  // Some repeat what they said before; tf itself would complain each time.
-  if (!is_static && stamp == child.newest) return "";
-  child.newest = stamp;
-  transform.transform.rotation = normalized(transform.transform.rotation);
-  buffer_.setTransform(transform, "sightline", is_static);
-  return "";
-}
-
-std::string TransformInput::judge(const geometry_msgs::TransformStamped& transform,
-                                  std::int64_t now) {
-  const std::int64_t stamp = nanoseconds(transform.header.stamp);
-  std::string fault = pipeline::faultOfStamp(stamp);
-  if (!fault.empty()) return fault;
-  pipeline::StampWatch& stamps = children_[transform.child_frame_id].stamps;
-  const double leap = stamps.leap(stamp);
-  switch (stamps.judge(stamp, now)) {
+  const double leap = child.stamps.leap(stamp);
+  switch (child.stamps.judge(stamp, now)) {
     case pipeline::StampWatch::Verdict::kGood:
-      return "";
+      dropStrays(child, faults);
+      break;
     case pipeline::StampWatch::Verdict::kStray:
-      return pipeline::describeLeap(leap);
+      if (child.stamps.strays() == 1) dropStrays(child, faults);
+      child.strays.push_back(transform);
+      return;
     case pipeline::StampWatch::Verdict::kClockSet:
+      beginNewTime(child, leap < 0.0);
       break;
   }
-  if (leap < 0.0) buffer_.clear();
-  return "";
+  insert(transform, child);
+}
+
+// What is from the future of the new time would keep the buffer from taking anything.
+void TransformInput::beginNewTime(Child& child, bool is_earlier) {
+  if (is_earlier) buffer_.clear();
+  child.newest = 0;
+  for (const Transform& stray : std::exchange(child.strays, {})) insert(stray, child);
+}
+
+void TransformInput::dropStrays(Child& child, Faults& faults) {
+  for (const Transform& stray : std::exchange(child.strays, {})) {
+    const double leap = child.stamps.leap(nanoseconds(stray.header.stamp));
+    faults.push_back(named(stray, pipeline::describeLeap(leap)));
+  }
+}
+
+// Some repeat what they said before; tf itself would complain each time.
+void TransformInput::insert(const Transform& transform, Child& child) {
+  const std::int64_t stamp = nanoseconds(transform.header.stamp);
+  if (stamp == child.newest) return;
+  child.newest = stamp;
+  buffer_.setTransform(transform, kAuthority, /*is_static=*/false);
 }
 
 }  // namespace sightline::bridge

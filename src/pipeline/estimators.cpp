@@ -1,6 +1,5 @@
 #include "sightline/pipeline/estimators.h"
 
-#include <cmath>
 #include <utility>
 
 #include "sightline/motion/sweep.h"
@@ -14,24 +13,14 @@ namespace {
 // Scans of others are not compared with what this scanner has seen.
 constexpr std::size_t kOdometryScanner = 0;
 
-// Uncertainty of the motion over a break in the odometry [m, rad].
+// Uncertainty of the motion over a break in the odometry, or while the clock is set [m, rad].
 constexpr double kBridgedPosition = 0.1;
 constexpr double kBridgedHeading = 0.1;
-
-// A robot cannot get farther while its clock is set [m, rad]; where the odometry is elsewhere, a
-// recording begins again.
-constexpr double kSamePosition = 1.0;
-constexpr double kSameHeading = 1.0;
 
 void flagBreak(tracking::TrackerUpdate& update) {
   if (update.state == tracking::TrackerState::kTracking) {
     update.state = tracking::TrackerState::kDegraded;
   }
-}
-
-bool isSamePlace(const Pose2& a, const Pose2& b) {
-  const Pose2 step = geometry::between(a, b);
-  return step.translation().norm() < kSamePosition && std::abs(step.theta()) < kSameHeading;
 }
 
 }  // namespace
@@ -58,7 +47,10 @@ void Estimators::configureLines(const LinesConfig& config) {
 }
 
 Estimates Estimators::take(LocatedScan located) {
-  if (located.clock_restarted) restart(located);
+  if (located.clock_restarted) {
+    rooms_restart_ = true;
+    if (odometry_) odometry_->restartClock();
+  }
   Estimates estimates;
   estimates.located = std::move(located);
   removeFloor(estimates.located);
@@ -69,15 +61,15 @@ Estimates Estimators::take(LocatedScan located) {
   return estimates;
 }
 
-void Estimators::restart(const LocatedScan& located) {
-  if (odometry_) odometry_->restartClock();
-  if (!rooms_) return;
-  const bool goes_on =
-      T_odom_base_ && located.T_odom_base && isSamePlace(*T_odom_base_, *located.T_odom_base);
+// The odometry tells a clock that was set from a recording that is played again.
+void Estimators::restartRooms(const LocatedScan& located) {
+  rooms_restart_ = false;
+  const bool goes_on = T_odom_base_ && isSamePlace(*T_odom_base_, *located.T_odom_base);
   if (config_.rooms->initial_pose && !goes_on) {
     rooms_->setPose(config_.rooms->start());
   } else {
     rooms_->restartClock();
+    rooms_->inflate(kBridgedPosition, kBridgedHeading);
   }
 }
 
@@ -138,6 +130,7 @@ void Estimators::extract(Estimates& estimates) {
 void Estimators::track(Estimates& estimates) {
   const LocatedScan& located = estimates.located;
   if (!located.T_odom_base || !located.T_base_sensor) return;
+  if (rooms_restart_) restartRooms(located);
   T_odom_base_ = located.T_odom_base;
   if (located.odometry_broke) rooms_->inflate(kBridgedPosition, kBridgedHeading);
   const Pose2 T_path_base = located.T_path_base.value_or(*located.T_odom_base);

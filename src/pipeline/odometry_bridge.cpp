@@ -46,6 +46,12 @@ bool OdometryLimits::allow(const Pose2& step, double seconds) const {
          std::abs(step.theta()) <= max_turn_rate * elapsed + kBridge.heading;
 }
 
+bool isSamePlace(const Pose2& before, const Pose2& after) {
+  constexpr double kSame = 1.0;  // [m, rad]
+  const Pose2 step = geometry::between(before, after);
+  return step.translation().norm() < kSame && std::abs(step.theta()) < kSame;
+}
+
 OdometryBridge::Step OdometryBridge::follow(std::int64_t stamp, const PoseAt& T_odom_base) {
   const auto now = T_odom_base(stamp);
   if (!now) return {T_path_base_, false};

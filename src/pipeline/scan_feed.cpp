@@ -44,6 +44,7 @@ void ScanFeed::admit(ArrivedScan arrived) {
       scanner.strays.push_back(std::move(arrived));
       return;
     case StampWatch::Verdict::kClockSet:
+      scanner.strays.front().begins_new_time = true;
       for (ArrivedScan& stray : std::exchange(scanner.strays, {})) take(std::move(stray));
       return take(std::move(arrived));
   }
@@ -94,7 +95,7 @@ void ScanFeed::refuse(std::size_t scanner, const std::string& reason) {
 
 namespace {
 
-// Readings that may be of a new time are not kept: the next one comes soon.
+// Readings that may be of a new time are not kept: the next ones come soon.
 std::string faultOfReading(StampWatch& stamps, std::int64_t stamp, std::int64_t now) {
   const std::string fault = faultOfStamp(stamp);
   if (!fault.empty()) return fault;
@@ -147,7 +148,8 @@ bool ScanFeed::isSetBack(std::int64_t stamp) const {
 
 std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
   ArrivedScan& front = waiting_.front();
-  if (isSetBack(front.scan.stamp)) {
+  if (front.begins_new_time || isSetBack(front.scan.stamp)) {
+    front.begins_new_time = false;
     newest_.reset();
     for (Scanner& scanner : scanners_) scanner.before.reset();
     clock_restarted_ = true;

@@ -94,11 +94,9 @@ void ScanOdometry::reset() {
   before_.reset();
   on_floor_.clear();
   is_new_ = true;
-}
-
-void ScanOdometry::restartClock() {
-  reckoner_.restartClock();
-  before_.reset();
+  clock_was_set_ = false;
+  shift_ = 0;
+  period_ = 0;
 }
 
 // Wheels whose breaks nobody has bridged are taken as they are.
@@ -135,7 +133,32 @@ ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
   return prior;
 }
 
+void ScanOdometry::goOnInNewTime(const LocatedScan& located) {
+  clock_was_set_ = false;
+  const auto& T_path_base = pathOf(located);
+  const bool is_there = before_ && period_ > 0 && before_->T_path_base && T_path_base &&
+                        !located.odometry_broke && isSamePlace(*before_->T_path_base, *T_path_base);
+  if (is_there) {
+    shift_ = before_->stamp + period_ - located.scan.stamp;
+    return;
+  }
+  shift_ = 0;
+  reckoner_.restartClock();
+  before_.reset();
+}
+
 std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
+    const LocatedScan& located) {
+  if (clock_was_set_) goOnInNewTime(located);
+  if (shift_ == 0) return updateInTime(located);
+  LocatedScan shifted = located;
+  shifted.scan.stamp += shift_;
+  auto update = updateInTime(shifted);
+  if (update) update->stamp -= shift_;
+  return update;
+}
+
+std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::updateInTime(
     const LocatedScan& located) {
   if (is_new_) reckoner_.reset(located.T_odom_base.value_or(Pose2()));
   const Pose2 T_base_sensor = located.T_base_sensor.value_or(Pose2());
@@ -146,6 +169,7 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
                                       : reckoner_.update(located.scan, T_base_sensor, prior);
   if (!update) return update;
   is_new_ = false;
+  if (before_) period_ = located.scan.stamp - before_->stamp;
   before_ = Before{located.scan.stamp, pathOf(located), update->twist};
   return update;
 }

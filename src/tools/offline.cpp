@@ -117,7 +117,7 @@ void printInput(const bridge::BagFeed& feed) {
     std::printf("the odometry broke %zu times: bridged by the scans\n", feed.breaks());
   }
   if (feed.restarts() > 0) {
-    std::printf("the clock was set back %zu times: started again\n", feed.restarts());
+    std::printf("the clock was set %zu times: started again\n", feed.restarts());
   }
   if (feed.withoutMotion() > 0) {
     std::printf("%zu of %zu scans without known motion within the sweep\n", feed.withoutMotion(),

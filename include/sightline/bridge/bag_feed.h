@@ -55,7 +55,7 @@ class BagFeed {
   std::size_t withoutMotion() const;
   /// Breaks in the odometry that were bridged.
   std::size_t breaks() const;
-  /// Times that the clock was set back.
+  /// Times that the clock was set.
   std::size_t restarts() const { return restarts_; }
   /// Faults that were mended in scans, each once.
   std::vector<std::string> mended() const;

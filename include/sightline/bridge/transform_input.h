@@ -20,18 +20,24 @@ class TransformInput {
   /// The buffer has to live as long.
   explicit TransformInput(tf2::BufferCore& buffer) : buffer_(buffer) {}
 
-  /// Returns the reasons of the transforms that were left out, one for each.
+  /// Returns the reasons of the transforms that were left out, one for each. One whose stamp leaps
+  /// is kept until the next ones tell whether the clock was set.
   std::vector<std::string> take(const tf2_msgs::TFMessage& message, bool is_static,
                                 std::int64_t now);
 
  private:
-  std::string take(geometry_msgs::TransformStamped transform, bool is_static, std::int64_t now);
-  std::string judge(const geometry_msgs::TransformStamped& transform, std::int64_t now);
-
+  using Transform = geometry_msgs::TransformStamped;
+  using Faults = std::vector<std::string>;
   struct Child {
     pipeline::StampWatch stamps;
-    std::int64_t newest = 0;  // [ns]
+    std::vector<Transform> strays;  // whose stamps may be those of a new time
+    std::int64_t newest = 0;        // [ns]
   };
+
+  void admit(const Transform& transform, std::int64_t now, Faults& faults);
+  void beginNewTime(Child& child, bool is_earlier);
+  static void dropStrays(Child& child, Faults& faults);
+  void insert(const Transform& transform, Child& child);
 
   tf2::BufferCore& buffer_;
   std::map<std::string, Child> children_;  // by frame

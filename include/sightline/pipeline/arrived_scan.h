@@ -16,6 +16,7 @@ struct ArrivedScan {
   scan::Scan scan;
   std::optional<motion::HeadSweep> head;  ///< of a sensor that turns with a head
   std::int64_t arrival = 0;               ///< by the feed's clock [ns]
+  bool begins_new_time = false;           ///< the first one since the clock was set
 
   /// The frame whose motion transforms know: the head's mount, or the sensor itself.
   const std::string& carriedFrame() const { return head ? head->mount_frame : scan.frame; }

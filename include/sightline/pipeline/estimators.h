@@ -61,7 +61,7 @@ class Estimators {
     lines::PlainExtractor plain;
   };
 
-  void restart(const LocatedScan& located);
+  void restartRooms(const LocatedScan& located);
   void removeFloor(LocatedScan& located) const;
   void reckon(Estimates& estimates);
   void addMotion(Estimates& estimates) const;
@@ -75,6 +75,7 @@ class Estimators {
   std::optional<tracking::RoomTracker> rooms_;
   std::optional<ScanOdometry> odometry_;
   std::optional<geometry::Pose2> T_odom_base_;  // by wheels, at the last scan
+  bool rooms_restart_ = false;                  // the clock was set since that scan
   bool is_mounting_known_ = false;              // of the scans that the odometry took
 };
 

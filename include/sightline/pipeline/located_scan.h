@@ -31,7 +31,7 @@ struct LocatedScan {
       false;                   ///< whether that is since the scan is from before the odometry began
   std::optional<double> turn;  ///< by a gyroscope, since the scan before [rad]
   std::optional<motion::SweepAttitude> attitude;  ///< of the sensor, by an inertial sensor
-  /// The clock was set back: this scan is older than the ones before it, and begins anew.
+  /// The clock was set before this scan: its stamp says nothing of the time since the one before.
   bool clock_restarted = false;
 };
 

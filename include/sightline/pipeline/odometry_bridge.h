@@ -23,6 +23,10 @@ struct OdometryLimits {
   bool allow(const geometry::Pose2& step, double seconds) const;
 };
 
+/// Whether a carrier can have got from one place to the other while its clock was set. Where the
+/// odometry is elsewhere after that, a recording is played again.
+bool isSamePlace(const geometry::Pose2& before, const geometry::Pose2& after);
+
 /// Path of the wheels from scan to scan, on which breaks in the odometry are bridged: it was reset,
 /// it leaped. Over a break the carrier is taken to go on as it did before.
 class OdometryBridge {
