@@ -31,7 +31,7 @@ constexpr const char* kRobotWorld =
     "  - {centre: [-0.3, 0.1], size: [0.5, 0.4], yaw: 0.3}\n";
 
 /// Time of the recording's first moment [s].
-constexpr double kRobotStart = 1000.0;
+constexpr double kRobotStart = 10000.0;
 
 struct RobotBag {
   double seconds = 20.0;

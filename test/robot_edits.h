@@ -112,7 +112,8 @@ inline RobotInput steppingStamps(double when, double step) {
   };
   input.time_of_stamp = [=](double stamp) {
     const double time = stamp - kRobotStart;
-    return std::abs(time - when - step) < 15.0 && time - step >= when ? time - step : time;
+    const bool is_new = time - step >= when - 1e-6 && time - step <= 20.0;
+    return is_new ? time - step : time;
   };
   return input;
 }

@@ -16,11 +16,13 @@ namespace {
 
 using namespace sightline;
 
+const std::vector<std::string> kTopics{"/tf_static", "tf_static"};
+
 void addTransforms(const std::string& path,
                    std::map<std::string, geometry_msgs::TransformStamped>& by_child) {
   try {
     const rosbag::Bag bag(path);
-    rosbag::View view(bag, rosbag::TopicQuery({"/tf_static", "tf_static"}));
+    rosbag::View view(bag, rosbag::TopicQuery(kTopics));
     for (const rosbag::MessageInstance& instance : view) {
       const auto message = instance.instantiate<tf2_msgs::TFMessage>();
       if (!message) continue;
