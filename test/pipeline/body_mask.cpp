@@ -10,6 +10,8 @@ namespace sightline::pipeline {
 namespace {
 
 using geometry::radians;
+using test::at;
+using test::ScanFeedTest;
 
 scan::Scan turn() {
   const auto geometry =
