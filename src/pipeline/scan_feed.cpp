@@ -157,8 +157,9 @@ std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
   }
   ScanLocator::Outcome outcome;
   const auto& before = scanners_[front.scanner].before;
-  if (before && front.scan.stamp < *before) {
-    outcome.reason = "older than the scan before it";
+  if (before && front.scan.stamp <= *before) {
+    const bool is_same = front.scan.stamp == *before;
+    outcome.reason = is_same ? "the stamp of the scan before it" : "older than the scan before it";
   } else {
     outcome = locator_.locate(front, patience, before);
   }
