@@ -46,6 +46,14 @@ struct MatchTuning {
   double neighbour_position = 0.25;
   double neighbour_heading = 0.1;
   double cost_gap = 0.05;
+  // A pose is alone where the reference knows this share of the scan, what it knows is explained and
+  // not contradicted to these, and no other explanation costs little more.
+  double alone_known = 0.3;
+  double alone_cost = 0.45;
+  double alone_contradictions = 0.3;
+  double alone_gap = 0.1;
+  // Roughness of surfaces over the noise of a beam, as the surfaces were seen by such beams.
+  double roughness_per_sigma = 0.67;
   // Scans in a row, fitting a fresh reference alone, after which it becomes the reference.
   int trusted_after = 3;
 };
@@ -215,7 +223,9 @@ SubmapMatcher::Rasters SubmapMatcher::rastersAbout(const Reference& reference,
 SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Task& task,
                                                 const Pose2& start, double scale) const {
   Hypothesis hypothesis;
-  hypothesis.match = lines_.match(task.surfaces, submap, start, task.prior, scale);
+  const double roughness = kMatch.roughness_per_sigma * task.surfaces.sigma;
+  const LineMatcher lines(std::max(config_.surface_sigma, roughness));
+  hypothesis.match = lines.match(task.surfaces, submap, start, task.prior, scale);
   hypothesis.evidence = weigh(hypothesis.match, task.surfaces, task.profile, submap);
   return hypothesis;
 }
@@ -229,6 +239,21 @@ bool SubmapMatcher::isClear(const Hypothesis& hypothesis, bool predicted) const 
     return true;
   }
   return evidence.cost < config_.max_cost && evidence.contradictions < config_.max_contradictions;
+}
+
+// After a turn or a gap most of a scan is unseen: the right pose is the one that alone explains what
+// the reference knows of it.
+bool SubmapMatcher::isAlone(const std::vector<Hypothesis>& hypotheses) {
+  const Hypothesis& best = hypotheses.front();
+  const Evidence& evidence = best.evidence;
+  if (evidence.known < kMatch.alone_known || evidence.known_cost > kMatch.alone_cost ||
+      evidence.contradictions > kMatch.alone_contradictions) {
+    return false;
+  }
+  return std::none_of(hypotheses.begin() + 1, hypotheses.end(), [&](const Hypothesis& other) {
+    return other.evidence.cost < evidence.cost + kMatch.alone_gap &&
+           isDistinct(other.match.T_odom_base, best.match.T_odom_base);
+  });
 }
 
 MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const Task& task) const {
@@ -247,7 +272,8 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const 
   outcome.common = residuals.common();
   outcome.inliers = best.evidence.inliers;
   const bool predicted = isNarrow(task.window) && isNear(outcome.T_odom_base, task.prior);
-  outcome.state = isClear(best, predicted) ? MatchState::kMatched : MatchState::kFailed;
+  const bool is_taken = isClear(best, predicted) || isAlone(hypotheses);
+  outcome.state = is_taken ? MatchState::kMatched : MatchState::kFailed;
   for (const Hypothesis& other : hypotheses) {
     if (other.evidence.cost > best.evidence.cost + kMatch.cost_gap) break;
     if (!isDistinct(other.match.T_odom_base, outcome.T_odom_base)) continue;

@@ -106,14 +106,20 @@ MotionPrior ScanOdometry::asBefore(double elapsed, double turn) const {
   const Eigen::Vector3d& twist = before_->twist.mean;
   MotionPrior prior{Pose2::exp({elapsed * twist.x(), elapsed * twist.y(), turn}),
                     elapsed * elapsed * before_->twist.covariance};
-  const double position = config_.matching.carrier.acceleration * elapsed * elapsed;
+  const double position = reckoner_.expectedMotion().acceleration * elapsed * elapsed;
   prior.covariance.diagonal().head<2>().array() += position * position;
   return prior;
 }
 
+double ScanOdometry::elapsedOf(const LocatedScan& located) const {
+  if (!before_) return 0.0;
+  if (located.elapsed) return located.elapsed->usual;
+  return 1e-9 * static_cast<double>(located.scan.stamp - before_->stamp);
+}
+
 ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
   if (!before_) return std::nullopt;
-  const double elapsed = 1e-9 * static_cast<double>(located.scan.stamp - before_->stamp);
+  const double elapsed = elapsedOf(located);
   Prior prior;
   if (located.T_odom_base && before_->T_odom_base) {
     prior =
@@ -137,8 +143,10 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
   const Prior prior = priorOf(located);
   on_floor_.clear();
   const bool looks_for_floor = finder_ && !located.attitude;
-  const auto update = looks_for_floor ? matchLeaning(located.scan, T_base_sensor, prior)
-                                      : reckoner_.update(located.scan, T_base_sensor, prior);
+  const auto update =
+      looks_for_floor
+          ? matchLeaning(located, T_base_sensor, prior)
+          : reckoner_.update(located.scan, T_base_sensor, prior, located.elapsed);
   if (!update) return update;
   is_new_ = false;
   before_ = Before{located.scan.stamp, located.T_odom_base, update->twist};
@@ -148,17 +156,17 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
 // Floor is told from walls by looking back, for which the pose has to be known: the scan is matched
 // as it is first, and once more where it turns out to hold floor.
 std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
-    const scan::Scan& scan, const Pose2& T_base_sensor, const Prior& prior) {
-  auto match = reckoner_.match(scan, T_base_sensor, prior);
+    const LocatedScan& located, const Pose2& T_base_sensor, const Prior& prior) {
+  const scan::Scan& scan = located.scan;
+  auto match = reckoner_.match(scan, T_base_sensor, prior, located.elapsed);
   if (!match) return std::nullopt;
   on_floor_ = finder_->find(scan, match->T_odom_base * T_base_sensor);
   if (std::count(on_floor_.begin(), on_floor_.end(), true) > 0) {
-    match = reckoner_.match(motion::without(scan, on_floor_), T_base_sensor, prior);
+    match = reckoner_.match(motion::without(scan, on_floor_), T_base_sensor, prior, located.elapsed);
   }
   Update update = reckoner_.commit(*match);
   finder_->remember(scan, update.pose.mean * T_base_sensor);
-  const double elapsed = before_ ? 1e-9 * static_cast<double>(scan.stamp - before_->stamp) : 0.0;
-  addUnknownTilt(*floor_, scan, T_base_sensor, elapsed, update);
+  addUnknownTilt(*floor_, scan, T_base_sensor, elapsedOf(located), update);
   return update;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sightline/pipeline/scan_clock.h"
 #include "sightline/pipeline/scan_locator.h"
 
 namespace sightline::pipeline {
@@ -29,9 +30,9 @@ struct FeedCounts {
 };
 
 /// Takes scans as they arrive and gives them back, those that wait in the order of their stamps and
-/// each scanner's own always so, completed by
-/// transforms, odometry and an inertial sensor, or with the reason why it is not used. A scan waits
-/// for what belongs to it as long as the settings' patience lasts.
+/// each scanner's own always so, completed by transforms, odometry and an inertial sensor, or with
+/// the reason why it is not used. A scan waits for what belongs to it as long as the settings'
+/// patience lasts. A scanner whose stamps are those of arrival keeps the order of arrival.
 ///
 /// Live nodes, recordings and tests use this class alike, with a clock of their own: `now` is any
 /// time that goes on evenly [ns]. Not thread-safe.
@@ -61,16 +62,19 @@ class ScanFeed {
 
  private:
   void enqueue(ArrivedScan arrived);
+  bool goesBefore(const ArrivedScan& arrived, const ArrivedScan& other) const;
   std::optional<FeedResult> settle(const Patience& patience);
   FeedResult finish(const ArrivedScan& arrived, ScanLocator::Outcome outcome);
-  bool isSetBack(std::int64_t stamp) const;
+  bool isSetBack(const ArrivedScan& arrived) const;
 
   FeedConfig config_;
   ScanLocator locator_;
   std::deque<ArrivedScan> waiting_;  // in the order of their stamps
+  std::vector<ScanClock> clocks_;    // by scanner
   std::vector<FeedCounts> counts_;
   std::optional<std::int64_t> newest_;               // stamp of the newest scan that was located
   std::vector<std::optional<std::int64_t>> before_;  // of the last one, by scanner
+  std::vector<double> skipped_;                      // time of scans dropped since, likewise [s]
   bool clock_restarted_ = false;                     // and no scan has been located since
 };
 

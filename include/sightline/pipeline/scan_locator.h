@@ -22,6 +22,8 @@ struct ArrivedScan {
   scan::Scan scan;
   std::optional<motion::HeadSweep> head;  ///< of a sensor that turns with a head
   std::int64_t arrival = 0;               ///< by the feed's clock [ns]
+  /// Time since the scan before, where the stamps are those of arrival and do not tell it.
+  std::optional<scan::ElapsedTime> elapsed;
 
   /// The frame whose motion transforms know: the head's mount, or the sensor itself.
   const std::string& carriedFrame() const { return head ? head->mount_frame : scan.frame; }

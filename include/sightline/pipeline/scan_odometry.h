@@ -69,10 +69,11 @@ class ScanOdometry {
   using Update = dead_reckoning::DeadReckoningUpdate;
   using Prior = std::optional<dead_reckoning::MotionPrior>;
 
+  double elapsedOf(const LocatedScan& located) const;
   Prior priorOf(const LocatedScan& located) const;
   dead_reckoning::MotionPrior asBefore(double elapsed, double turn) const;
-  std::optional<Update> matchLeaning(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                                     const Prior& prior);
+  std::optional<Update> matchLeaning(const LocatedScan& located,
+                                     const geometry::Pose2& T_base_sensor, const Prior& prior);
 
   ScanOdometryConfig config_;
   dead_reckoning::DeadReckoner reckoner_;
