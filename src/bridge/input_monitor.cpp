@@ -38,6 +38,10 @@ void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("used", accepted_);
   status.add("dropped", dropped_);
   status.add("last reason", last_reason_);
+  if (!noise_) return;
+  status.add("noise sigma [m]", noise_->sigma);
+  status.add("noise sigma per metre", noise_->sigma_per_metre);
+  status.add("step of the ranges [m]", noise_->step);
 }
 
 }  // namespace sightline::bridge

@@ -83,6 +83,7 @@ void LiveFeed::deliver() {
 
 void LiveFeed::deliver(pipeline::FeedResult& result) {
   InputMonitor& monitor = *scanners_[result.scanner].monitor;
+  if (const auto* noise = feed_.learnedNoise(result.scanner)) monitor.show(*noise);
   if (!result.located) return monitor.drop(result.reason);
   try {
     consumer_(std::move(*result.located));

@@ -26,11 +26,16 @@ std::size_t ScanFeed::addScanner() {
   before_.emplace_back();
   clocks_.emplace_back();
   skipped_.push_back(0.0);
+  noise_.emplace_back(config_.noise);
   return counts_.size() - 1;
 }
 
 void ScanFeed::add(std::size_t scanner, scan::Scan scan, std::int64_t now) {
-  scan::applyNoise(config_.noise, scan);
+  if (config_.noise.kind == scan::NoiseKind::kEstimated) {
+    noise_[scanner].apply(scan);
+  } else {
+    scan::applyNoise(config_.noise, scan);
+  }
   enqueue({scanner, std::move(scan), std::nullopt, now, std::nullopt});
 }
 
@@ -52,6 +57,11 @@ void ScanFeed::enqueue(ArrivedScan arrived) {
 bool ScanFeed::goesBefore(const ArrivedScan& arrived, const ArrivedScan& other) const {
   if (arrived.scanner == other.scanner && clocks_[other.scanner].isOfArrival()) return false;
   return other.scan.stamp > arrived.scan.stamp && other.scan.stamp <= arrived.scan.stamp + kSetBack;
+}
+
+const scan::RangeNoise* ScanFeed::learnedNoise(std::size_t scanner) const {
+  const scan::RangeNoise& noise = noise_[scanner].noise();
+  return noise.is_learned ? &noise : nullptr;
 }
 
 void ScanFeed::refuse(std::size_t scanner, const std::string& reason) {

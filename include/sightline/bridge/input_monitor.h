@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
 #include "sightline/bridge/bad_message.h"
+#include "sightline/scan/learned_noise.h"
 
 namespace sightline::bridge {
 
@@ -29,6 +31,8 @@ class InputMonitor {
   void drop(const std::string& reason);
   /// Drops a message that nobody is to blame for: while a graph starts, some come too early.
   void skip(const std::string& reason);
+  /// Shows the noise that has been learned of the scanner.
+  void show(const scan::RangeNoise& noise) { noise_ = noise; }
 
  private:
   void count(const std::string& reason);
@@ -39,6 +43,7 @@ class InputMonitor {
   std::size_t dropped_ = 0;
   std::size_t dropped_before_ = 0;  // at the last report
   std::string last_reason_;
+  std::optional<scan::RangeNoise> noise_;
 };
 
 }  // namespace sightline::bridge

@@ -10,6 +10,7 @@
 
 #include "sightline/pipeline/scan_clock.h"
 #include "sightline/pipeline/scan_locator.h"
+#include "sightline/scan/learned_noise.h"
 
 namespace sightline::pipeline {
 
@@ -44,7 +45,8 @@ class ScanFeed {
 
   /// Returns the scanner's number, from 0 on.
   std::size_t addScanner();
-  /// A scan gets its variances by the settings' noise model; a range scan brings its own.
+  /// A scan gets its variances by the settings' noise model, or by what this scanner's scans have
+  /// shown (NoiseKind::kEstimated); a range scan brings its own.
   void add(std::size_t scanner, scan::Scan scan, std::int64_t now);
   void add(std::size_t scanner, motion::RangeScan range_scan, std::int64_t now);
   /// Counts a message that is no scan.
@@ -58,6 +60,8 @@ class ScanFeed {
   std::optional<FeedResult> flush();
 
   const FeedCounts& counts(std::size_t scanner) const { return counts_[scanner]; }
+  /// Noise of a scanner, where that is learned from its scans; null where the settings say it.
+  const scan::RangeNoise* learnedNoise(std::size_t scanner) const;
   std::size_t scanners() const { return counts_.size(); }
 
  private:
@@ -72,6 +76,7 @@ class ScanFeed {
   std::deque<ArrivedScan> waiting_;  // in the order of their stamps
   std::vector<ScanClock> clocks_;    // by scanner
   std::vector<FeedCounts> counts_;
+  std::vector<scan::LearnedNoise> noise_;            // by scanner
   std::optional<std::int64_t> newest_;               // stamp of the newest scan that was located
   std::vector<std::optional<std::int64_t>> before_;  // of the last one, by scanner
   std::vector<double> skipped_;                      // time of scans dropped since, likewise [s]
