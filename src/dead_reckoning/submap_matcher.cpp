@@ -21,6 +21,10 @@ struct MatchTuning {
   // A local match that speaks as clearly as this is taken without looking further.
   double clear_cost = 0.2;
   double clear_contradictions = 0.1;
+  // In windows up to this ratio wider, it has to speak more clearly, and be within half of a narrow
+  // window from the prediction.
+  double moderate = 2.0;
+  double moderate_clearness = 0.5;
   // Least inliers of a match that the prediction leads to. Twice as many turn the Intel log by 28°
   // more in all and add .8 points of bad steps.
   double least_inliers = 0.25;
@@ -83,8 +87,19 @@ bool isNear(const Pose2& pose, const UncertainPose2& prior) {
   return off.dot(prior.covariance.inverse() * off) < kMatch.near_prior;
 }
 
+bool isWithin(const SearchWindow& window, double ratio) {
+  return window.position < ratio * kMatch.narrow_position &&
+         window.heading < ratio * kMatch.narrow_heading;
+}
+
 bool isNarrow(const SearchWindow& window) {
-  return window.position < kMatch.narrow_position && window.heading < kMatch.narrow_heading;
+  return isWithin(window, 1.0);
+}
+
+bool isAtTheMiddle(const Pose2& pose, const SearchWindow& window) {
+  const Eigen::Vector3d off = difference(pose, window.centre);
+  return off.head<2>().norm() < 0.5 * kMatch.narrow_position &&
+         std::abs(off.z()) < 0.5 * kMatch.narrow_heading;
 }
 
 }  // namespace
@@ -166,16 +181,23 @@ SubmapMatcher::Attempt SubmapMatcher::matchWith(const Reference& reference,
                                                 const Task& task) const {
   if (task.surfaces.points.size() < kMatch.fewest_points) return {{}, reference.rasters};
   std::vector<Hypothesis> hypotheses;
-  if (isNarrow(task.window)) {
+  if (isWithin(task.window, kMatch.moderate)) {
     hypotheses.push_back(refine(reference.submap, task, task.window.centre, kMatch.local_scale));
-    const Hypothesis& local = hypotheses.back();
-    if (local.evidence.cost < kMatch.clear_cost &&
-        local.evidence.contradictions < kMatch.clear_contradictions &&
-        isNear(local.match.T_odom_base, task.prior)) {
+    if (isBeyondDoubt(hypotheses.back(), task)) {
       return {conclude(hypotheses, task), reference.rasters};
     }
   }
   return matchWidely(reference, task, std::move(hypotheses));
+}
+
+// Tells whether nothing else needs to be looked for.
+bool SubmapMatcher::isBeyondDoubt(const Hypothesis& local, const Task& task) {
+  const bool is_narrow = isNarrow(task.window);
+  const double clearness = is_narrow ? 1.0 : kMatch.moderate_clearness;
+  const Pose2& pose = local.match.T_odom_base;
+  return local.evidence.cost < clearness * kMatch.clear_cost &&
+         local.evidence.contradictions < clearness * kMatch.clear_contradictions &&
+         isNear(pose, task.prior) && (is_narrow || isAtTheMiddle(pose, task.window));
 }
 
 SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, const Task& task,

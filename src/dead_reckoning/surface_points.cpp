@@ -11,6 +11,8 @@ namespace {
 using geometry::Pose2;
 
 struct SurfaceTuning {
+  // Least standard deviation of a return [m]: a surface is no mathematical line, and a beam no ray.
+  double least_sigma = 0.01;
   // Length to either side that a line is fitted over [m], at least and in standard deviations of a
   // beam, and bounds of it in beams. Half the length costs 3 points of bad steps on a scanner of
   // 5 cm counts (aces), nothing on finer ones.
@@ -41,6 +43,15 @@ struct SurfaceTuning {
   double lone_sigmas = 3.0;
 };
 constexpr SurfaceTuning kSurface{};
+
+double squareOf(double least, double value) {
+  const double larger = std::max(least, value);
+  return larger * larger;
+}
+
+double leastVariance() {
+  return kSurface.least_sigma * kSurface.least_sigma;
+}
 
 Eigen::Vector2d basePoint(const scan::Scan& scan, std::size_t beam, const Pose2& T_base_sensor,
                           const Eigen::Vector3d& twist) {
@@ -96,7 +107,12 @@ Line fit(const Sums& sums, std::size_t count) {
 class SurfaceFinder {
  public:
   explicit SurfaceFinder(SurfaceScan& surfaces)
-      : sensor_(surfaces.sensor), beam_angle_(surfaces.beam_angle), points_(surfaces.points) {
+      : sensor_(surfaces.sensor),
+        beam_angle_(surfaces.beam_angle),
+        half_length_(std::max(kSurface.half_length, kSurface.half_length_sigmas * surfaces.sigma)),
+        straight_square_(squareOf(kSurface.straight, kSurface.straight_sigmas * surfaces.sigma)),
+        smooth_square_(squareOf(kSurface.smooth, kSurface.smooth_sigmas * surfaces.sigma)),
+        points_(surfaces.points) {
     const double widest = surfaces.beam_angle / kSurface.grazing;
     sums_.reserve(points_.size() + 1);
     sums_.emplace_back();
@@ -131,21 +147,22 @@ class SurfaceFinder {
     const double before = i > first ? gap(i) : 0.0;
     const double after = i + 1 < end ? gap(i + 1) : 0.0;
     point.reach = std::max(before, after);
-    const double sigma = std::sqrt(point.variance);
     const auto wanted =
-        static_cast<std::size_t>(halfLength(sigma) / std::max(point.reach, 1e-3));
+        static_cast<std::size_t>(half_length_ / std::max(point.reach, 1e-3));
     Line best;
     for (std::size_t half = std::clamp(wanted, kSurface.min_half, kSurface.max_half); half > 0;
          half /= 2) {
       fitAbout(i, first, end, half, best);
       if (best.mean_square < 2.0 * point.variance) break;
     }
-    const double straight = std::max(kSurface.straight, kSurface.straight_sigmas * sigma);
-    if (best.mean_square > straight * straight) return;
+    if (best.mean_square > straight_square_) return;
     const bool towards = best.normal.dot(sensor_ - point.position) > 0.0;
     point.normal = towards ? best.normal : Eigen::Vector2d(-best.normal);
     point.normal_variance =
         std::max(best.mean_square, point.variance) / std::max(best.extent, kSurface.least_extent);
+    // A range moves a point across a surface by the cosine at which it is met.
+    const double cosine = point.normal.dot(sensor_ - point.position) / std::max(range(i), 1e-6);
+    point.variance = std::max(point.variance * cosine * cosine, leastVariance());
     point.smoothed = point.position + best.normal.dot(best.centre - point.position) * best.normal;
   }
 
@@ -153,10 +170,7 @@ class SurfaceFinder {
   void fitAbout(std::size_t i, std::size_t first, std::size_t end, std::size_t half,
                 Line& best) const {
     takeBetter(std::max(first, i - std::min(i, half)), std::min(end, i + half + 1), best);
-    const double smooth_sigma = kSurface.smooth_sigmas * kSurface.smooth_sigmas;
-    const double smooth =
-        std::max(kSurface.smooth * kSurface.smooth, smooth_sigma * points_[i].variance);
-    if (best.mean_square < smooth) return;
+    if (best.mean_square < smooth_square_) return;
     takeBetter(std::max(first, i - std::min(i, 2 * half)), i + 1, best);
     takeBetter(i, std::min(end, i + 2 * half + 1), best);
   }
@@ -165,10 +179,6 @@ class SurfaceFinder {
     if (right - left < kSurface.min_points) return;
     const Line line = fit(sums_[right] - sums_[left], right - left);
     if (line.mean_square < best.mean_square) best = line;
-  }
-
-  static double halfLength(double sigma) {
-    return std::max(kSurface.half_length, kSurface.half_length_sigmas * sigma);
   }
 
   void faceScanner(std::size_t i) {
@@ -191,6 +201,9 @@ class SurfaceFinder {
 
   Eigen::Vector2d sensor_;
   double beam_angle_;
+  double half_length_;      // [m]
+  double straight_square_;  // [m²]
+  double smooth_square_;    // [m²]
   std::vector<SurfacePoint>& points_;
   std::vector<Sums> sums_;
   std::vector<std::size_t> first_;  // first point on the same surface, by point
@@ -238,7 +251,7 @@ SurfacePoint pointOf(const scan::Scan& scan, std::size_t beam, const Pose2& T_ba
   SurfacePoint point;
   point.position = basePoint(scan, beam, T_base_sensor, twist);
   point.smoothed = point.position;
-  point.variance = scan.rangeVariances()[beam];
+  point.variance = std::max(scan.rangeVariances()[beam], leastVariance());
   return point;
 }
 

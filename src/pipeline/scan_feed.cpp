@@ -126,6 +126,7 @@ FeedResult ScanFeed::finish(const ArrivedScan& arrived, ScanLocator::Outcome out
     if (arrived.elapsed) skipped_[arrived.scanner] += arrived.elapsed->usual;
     return result;
   }
+  if (const scan::RangeNoise* noise = learnedNoise(arrived.scanner)) result.located->noise = *noise;
   const double skipped = std::exchange(skipped_[arrived.scanner], 0.0);
   if (const auto& time = arrived.elapsed) {
     result.located->elapsed = scan::ElapsedTime{time->usual + skipped, time->longest + skipped, time->sigma};

@@ -61,6 +61,17 @@ double meanRange(const scan::Scan& scan) {
   return valid > 0 ? sum / static_cast<double>(valid) : 0.0;
 }
 
+// Learned noise that grows with the range was learned along the beams, and most of the growth where
+// they graze. Across a surface, far returns err little more than near ones; they know the heading
+// best, and weighed down turn fr079 by 1.4 instead of 1.0 degrees in all.
+scan::Scan evenlyWeighed(const LocatedScan& located) {
+  scan::Scan scan = located.scan;
+  if (!located.noise) return scan;
+  scan.setRangeVariances(
+      std::vector<double>(scan.beams(), located.noise->variance(meanRange(scan))));
+  return scan;
+}
+
 // A scanner that nods by α sees what is ahead farther by the factor 1 / cos α. No scan shows that,
 // and it does not add up: the pose errs by it, and a step at both its ends.
 void addUnknownTilt(const FloorConfig& config, const scan::Scan& scan, const Pose2& T_base_sensor,
@@ -143,10 +154,10 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
   const Prior prior = priorOf(located);
   on_floor_.clear();
   const bool looks_for_floor = finder_ && !located.attitude;
-  const auto update =
-      looks_for_floor
-          ? matchLeaning(located, T_base_sensor, prior)
-          : reckoner_.update(located.scan, T_base_sensor, prior, located.elapsed);
+  const scan::Scan scan = evenlyWeighed(located);
+  const auto update = looks_for_floor
+                          ? matchLeaning(scan, located, T_base_sensor, prior)
+                          : reckoner_.update(scan, T_base_sensor, prior, located.elapsed);
   if (!update) return update;
   is_new_ = false;
   before_ = Before{located.scan.stamp, located.T_odom_base, update->twist};
@@ -156,8 +167,8 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
 // Floor is told from walls by looking back, for which the pose has to be known: the scan is matched
 // as it is first, and once more where it turns out to hold floor.
 std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
-    const LocatedScan& located, const Pose2& T_base_sensor, const Prior& prior) {
-  const scan::Scan& scan = located.scan;
+    const scan::Scan& scan, const LocatedScan& located, const Pose2& T_base_sensor,
+    const Prior& prior) {
   auto match = reckoner_.match(scan, T_base_sensor, prior, located.elapsed);
   if (!match) return std::nullopt;
   on_floor_ = finder_->find(scan, match->T_odom_base * T_base_sensor);

@@ -55,6 +55,7 @@ class SubmapMatcher : public Matcher {
   };
 
   Attempt matchWith(const Reference& reference, const Task& task) const;
+  static bool isBeyondDoubt(const Hypothesis& local, const Task& task);
   Attempt matchWidely(const Reference& reference, const Task& task,
                       std::vector<Hypothesis> hypotheses) const;
   static Task widened(const Task& task);

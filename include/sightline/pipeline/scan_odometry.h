@@ -72,7 +72,7 @@ class ScanOdometry {
   double elapsedOf(const LocatedScan& located) const;
   Prior priorOf(const LocatedScan& located) const;
   dead_reckoning::MotionPrior asBefore(double elapsed, double turn) const;
-  std::optional<Update> matchLeaning(const LocatedScan& located,
+  std::optional<Update> matchLeaning(const scan::Scan& scan, const LocatedScan& located,
                                      const geometry::Pose2& T_base_sensor, const Prior& prior);
 
   ScanOdometryConfig config_;
