@@ -19,17 +19,15 @@ struct SearchTuning {
   // Distance between points that are counted [m], so that near walls do not outvote the rest, and
   // the most of them.
   double thinning = 0.12;
-  std::size_t most_points = 150;
-  // Steps of heading [rad], and between the positions tried about a pose [m].
-  double heading = 0.04;
-  double fine_heading = 0.02;
-  double fine_step = 0.1;
-  // Poses that are looked at more closely, and blocks of positions that are divided for them: beyond
-  // the second number the way down leads to the best block alone.
-  std::size_t leaves = 175;
-  std::size_t most_divided = 2500;
+  std::size_t most_points = 120;
+  // Step of heading [rad].
+  double heading = 0.03;
+  // Blocks of positions that are divided; from then on the way down leads to the best part of each
+  // alone, up to so many blocks.
+  std::size_t most_divided = 2000;
+  std::size_t most_looked = 2300;
   // Blocks that the search begins with at most.
-  double most_blocks = 12'000.0;
+  double most_blocks = 6'000.0;
   // Poses nearer to each other than this are one hypothesis [m, rad]; those that score less than
   // this share of the best are none.
   double apart_position = 0.35;
@@ -74,23 +72,6 @@ struct Pose {
   long sum;  // what its points count, together
 };
 
-std::vector<SearchCandidate> bestApart(std::vector<Pose>& all, std::size_t points,
-                                       std::size_t most) {
-  std::sort(all.begin(), all.end(), [](const Pose& a, const Pose& b) { return a.sum > b.sum; });
-  const double full = static_cast<double>(SearchRasters::kFull) * static_cast<double>(points);
-  std::vector<SearchCandidate> best;
-  for (const Pose& pose : all) {
-    const SearchCandidate candidate{pose.T_odom_base, static_cast<double>(pose.sum) / full};
-    if (best.size() == most) break;
-    if (!best.empty() && candidate.score < kSearch.worthwhile * best.front().score) break;
-    const bool known = std::any_of(best.begin(), best.end(), [&](const SearchCandidate& other) {
-      return isTheSamePeak(candidate.T_odom_base, other.T_odom_base);
-    });
-    if (!known) best.push_back(candidate);
-  }
-  return best;
-}
-
 class BranchAndBound {
  public:
   BranchAndBound(const SearchRasters& rasters, const std::vector<Eigen::Vector2d>& points,
@@ -101,20 +82,23 @@ class BranchAndBound {
     begin();
   }
 
-  std::vector<Pose> find() {
-    std::vector<Pose> leaves;
-    for (std::size_t divided = 0; !open_.empty() && leaves.size() < kSearch.leaves;) {
+  // The best poses that are not neighbours of a better one, best first.
+  std::vector<Pose> find(std::size_t most) {
+    std::vector<Pose> peaks;
+    for (std::size_t looked = 0; !open_.empty() && peaks.size() < most;) {
       const Block block = open_.top();
       open_.pop();
+      if (isCovered(block, peaks)) continue;
+      if (!peaks.empty() && block.bound < kSearch.worthwhile * peaks.front().sum) break;
       if (block.level == 0) {
-        leaves.push_back(bestAbout(block));
-      } else if (++divided < kSearch.most_divided) {
+        peaks.push_back({Pose2(block.corner, headings_[block.heading]), block.bound});
+      } else if (++looked < kSearch.most_divided) {
         for (const Block& part : partsOf(block)) open_.push(part);
-      } else {
-        leaves.push_back(bestAbout(bestIn(block)));
+      } else if (looked < kSearch.most_looked) {
+        open_.push(bestIn(block));
       }
     }
-    return leaves;
+    return peaks;
   }
 
   std::size_t evaluations() const { return evaluations_; }
@@ -199,19 +183,15 @@ class BranchAndBound {
     return block;
   }
 
-  Pose bestAbout(const Block& leaf) {
-    Pose best{Pose2(leaf.corner, headings_[leaf.heading]), leaf.bound};
-    for (const double turn : {-kSearch.fine_heading, kSearch.fine_heading}) {
-      const double heading = headings_[leaf.heading] + turn;
-      const std::vector<Eigen::Vector2d> points = turned(heading);
-      for (int i = 0; i < 9; ++i) {
-        const Eigen::Vector2d position =
-            leaf.corner + kSearch.fine_step * Eigen::Vector2d(i % 3 - 1, i / 3 - 1);
-        const long sum = sumAt(0, points, position);
-        if (sum > best.sum) best = {Pose2(position, heading), sum};
-      }
-    }
-    return best;
+  // Tells whether all of a block is next to a peak that was found.
+  bool isCovered(const Block& block, const std::vector<Pose>& peaks) const {
+    const double cell = block.level == 0 ? 0.0 : cellOf(block.level);
+    const Eigen::Vector2d opposite = block.corner.array() + cell;
+    const double heading = headings_[block.heading];
+    return std::any_of(peaks.begin(), peaks.end(), [&](const Pose& peak) {
+      return isTheSamePeak(Pose2(block.corner, heading), peak.T_odom_base) &&
+             isTheSamePeak(Pose2(opposite, heading), peak.T_odom_base);
+    });
   }
 
   const SearchRasters& rasters_;
@@ -230,10 +210,12 @@ SearchResult searchRasters(const std::vector<SurfacePoint>& points, const Search
   const std::vector<Eigen::Vector2d> thinned = thinOut(points);
   if (thinned.empty()) return {};
   BranchAndBound search(rasters, thinned, window);
-  std::vector<Pose> poses = search.find();
+  const double full = static_cast<double>(SearchRasters::kFull * thinned.size());
   SearchResult result;
+  for (const Pose& peak : search.find(most)) {
+    result.candidates.push_back({peak.T_odom_base, static_cast<double>(peak.sum) / full});
+  }
   result.evaluations = search.evaluations();
-  result.candidates = bestApart(poses, thinned.size(), most);
   return result;
 }
 

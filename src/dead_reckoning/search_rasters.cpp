@@ -8,21 +8,19 @@ namespace sightline::dead_reckoning {
 namespace {
 
 constexpr struct {
-  // Extent of the rasters from their centre, and path of the centre after which they are drawn
-  // anew [m].
-  double reach = 25.6;
+  // Path of the centre after which the rasters are drawn anew [m].
   double redraw_at = 4.0;
-  // Count on a surface, and distance from it at which a point counts nothing [m].
-  double full = SearchRasters::kFull;
+  // Distance from a surface at which a point counts nothing [m].
   double smear = 0.25;
 } kRasters;
+constexpr int kHalf = static_cast<int>(kRasters.smear / SearchRasters::kCell);
 
-std::vector<std::uint8_t> smearStamp(int half) {
+std::vector<std::uint8_t> smearStamp() {
   std::vector<std::uint8_t> stamp;
-  for (int dy = -half; dy <= half; ++dy) {
-    for (int dx = -half; dx <= half; ++dx) {
+  for (int dy = -kHalf; dy <= kHalf; ++dy) {
+    for (int dx = -kHalf; dx <= kHalf; ++dx) {
       const double distance = SearchRasters::kCell * std::hypot(dx, dy);
-      const double count = std::round(kRasters.full * (1.0 - distance / kRasters.smear));
+      const double count = std::round(SearchRasters::kFull * (1.0 - distance / kRasters.smear));
       stamp.push_back(static_cast<std::uint8_t>(std::max(0.0, count)));
     }
   }
@@ -34,12 +32,10 @@ std::vector<std::uint8_t> smearStamp(int half) {
 SearchRasters::SearchRasters(const Submap& submap, const Eigen::Vector2d& centre_odom)
     : drawn_(submap.version()),
       centre_odom_(centre_odom),
-      corner_(centre_odom.array() - kRasters.reach) {
+      corner_(centre_odom.array() - 0.5 * kCell * static_cast<double>(kSide)) {
   draw(submap.surfels());
-  std::vector<Level> plain{levels_.front()};
-  while (plain.size() < kLevels) {
-    plain.push_back(halved(plain.back()));
-    levels_.push_back(widened(plain.back()));
+  for (std::size_t level = 1; level < kLevels; ++level) {
+    levels_[level] = widened(levels_[level - 1], std::size_t{1} << (level - 1));
   }
 }
 
@@ -48,53 +44,36 @@ bool SearchRasters::show(const Submap& submap, const Eigen::Vector2d& centre_odo
 }
 
 void SearchRasters::draw(const std::vector<Surfel>& surfels) {
-  static const int half = static_cast<int>(kRasters.smear / kCell);
-  static const std::vector<std::uint8_t> smear = smearStamp(half);
-  const int side = static_cast<int>(std::lround(2.0 * kRasters.reach / kCell));
-  const auto stride = static_cast<std::size_t>(side);
-  levels_ = {{kCell, static_cast<double>(side), stride, std::vector<std::uint8_t>(stride * stride)}};
+  static const std::vector<std::uint8_t> smear = smearStamp();
+  levels_.front().assign(kSide * kSide, 0);
   for (const Surfel& surfel : surfels) {
     const Eigen::Vector2d place = (surfel.position - corner_) / kCell;
-    if (!(place.minCoeff() >= half && place.maxCoeff() < side - half)) continue;
+    if (!(place.minCoeff() >= kHalf && place.maxCoeff() < static_cast<double>(kSide) - kHalf)) {
+      continue;
+    }
+    const auto x = static_cast<std::size_t>(place.x()) - kHalf;
+    const auto y = static_cast<std::size_t>(place.y()) - kHalf;
     const std::uint8_t* count = smear.data();
-    for (int y = static_cast<int>(place.y()) - half; y <= static_cast<int>(place.y()) + half; ++y) {
-      const int x = static_cast<int>(place.x()) - half;
-      std::uint8_t* cell = &levels_.front().counts[static_cast<std::size_t>(y * side + x)];
-      for (int i = 0; i <= 2 * half; ++i, ++cell, ++count) *cell = std::max(*cell, *count);
+    for (std::size_t row = y; row <= y + 2 * kHalf; ++row) {
+      std::uint8_t* cell = &levels_.front()[row * kSide + x];
+      for (int i = 0; i <= 2 * kHalf; ++i, ++cell, ++count) *cell = std::max(*cell, *count);
     }
   }
 }
 
-// Cells twice as wide, with the most of the four that each holds.
-SearchRasters::Level SearchRasters::halved(const Level& fine) {
-  Level level{2.0 * fine.cell, 0.5 * fine.side, fine.stride / 2, {}};
-  level.counts.reserve(level.stride * level.stride);
-  for (std::size_t y = 0; y < level.stride; ++y) {
-    const std::uint8_t* low = &fine.counts[2 * y * fine.stride];
-    const std::uint8_t* high = low + fine.stride;
-    for (std::size_t x = 0; x < 2 * level.stride; x += 2) {
-      level.counts.push_back(
-          std::max(std::max(low[x], low[x + 1]), std::max(high[x], high[x + 1])));
-    }
+// The most of each cell and of those so many cells further along x, along y and along both.
+SearchRasters::Raster SearchRasters::widened(const Raster& raster, std::size_t shift) {
+  Raster along_x = raster;
+  for (std::size_t y = 0; y < kSide; ++y) {
+    const std::uint8_t* from = &raster[y * kSide];
+    std::uint8_t* to = &along_x[y * kSide];
+    for (std::size_t x = 0; x + shift < kSide; ++x) to[x] = std::max(from[x], from[x + shift]);
   }
-  return level;
-}
-
-// The most of each cell and of the next ones along x and y.
-SearchRasters::Level SearchRasters::widened(const Level& cells) {
-  Level level = cells;
-  const std::size_t side = cells.stride;
-  for (std::size_t y = 0; y < side; ++y) {
-    for (std::size_t x = 0; x < side; ++x) {
-      std::uint8_t& most = level.counts[y * side + x];
-      const bool has_right = x + 1 < side;
-      if (has_right) most = std::max(most, cells.counts[y * side + x + 1]);
-      if (y + 1 == side) continue;
-      most = std::max(most, cells.counts[(y + 1) * side + x]);
-      if (has_right) most = std::max(most, cells.counts[(y + 1) * side + x + 1]);
-    }
+  Raster both = along_x;
+  for (std::size_t i = 0; i + shift * kSide < both.size(); ++i) {
+    both[i] = std::max(along_x[i], along_x[i + shift * kSide]);
   }
-  return level;
+  return both;
 }
 
 }  // namespace sightline::dead_reckoning
