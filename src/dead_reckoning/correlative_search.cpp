@@ -1,8 +1,10 @@
 #include "sightline/dead_reckoning/correlative_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
+#include <utility>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -24,15 +26,15 @@ struct SearchTuning {
   double heading = 0.03;
   // Blocks of positions that are divided; from then on the way down leads to the best part of each
   // alone, up to so many blocks.
-  std::size_t most_divided = 2000;
-  std::size_t most_looked = 2300;
+  std::size_t most_divided = 4000;
+  std::size_t most_looked = 4300;
   // Blocks that the search begins with at most.
   double most_blocks = 6'000.0;
   // Poses nearer to each other than this are one hypothesis [m, rad]; those that score less than
   // this share of the best are none.
   double apart_position = 0.35;
   double apart_heading = 0.1;
-  double worthwhile = 0.6;
+  double worthwhile = 0.65;
 };
 constexpr SearchTuning kSearch{};
 
@@ -55,12 +57,13 @@ bool isTheSamePeak(const Pose2& a, const Pose2& b) {
          std::abs(geometry::wrapAngle(a.theta() - b.theta())) < kSearch.apart_heading;
 }
 
-// Positions from a corner on, as far as a cell of the level, at one heading.
+// Positions from a corner on, at one heading: as many cells along x and y as its level stands for.
 struct Block {
-  Eigen::Vector2d corner;
+  int x;  // of its corner, from that of the window [cells]
+  int y;
   std::size_t heading;
   std::size_t level;
-  long bound;  // what its points count at most, together
+  int bound;  // what its points count at most, together
 
   bool operator<(const Block& other) const {
     return bound != other.bound ? bound < other.bound : level > other.level;
@@ -69,17 +72,22 @@ struct Block {
 
 struct Pose {
   Pose2 T_odom_base;
-  long sum;  // what its points count, together
+  int sum;  // what its points count, together
 };
 
 class BranchAndBound {
  public:
   BranchAndBound(const SearchRasters& rasters, const std::vector<Eigen::Vector2d>& points,
                  const SearchWindow& window)
-      : rasters_(rasters), points_(points), window_(window) {
-    const int steps = static_cast<int>(std::ceil(window.heading / kSearch.heading));
-    for (int k = -steps; k <= steps; ++k) turnTo(window.centre.theta() + k * kSearch.heading);
-    begin();
+      : rasters_(rasters), level_(firstLevel(window)) {
+    const int headings = headingsOf(window);
+    const int blocks = blocksAlong(window, level_);
+    corner_ = window.centre.translation().array() -
+              std::min(window.position, 0.5 * sizeOf(level_) * blocks);
+    for (int k = -headings; k <= headings; ++k) {
+      turnTo(window.centre.theta() + k * kSearch.heading, points);
+      begin(blocks);
+    }
   }
 
   // The best poses that are not neighbours of a better one, best first.
@@ -88,10 +96,10 @@ class BranchAndBound {
     for (std::size_t looked = 0; !open_.empty() && peaks.size() < most;) {
       const Block block = open_.top();
       open_.pop();
-      if (isCovered(block, peaks)) continue;
       if (!peaks.empty() && block.bound < kSearch.worthwhile * peaks.front().sum) break;
+      if (isCovered(block, peaks)) continue;
       if (block.level == 0) {
-        peaks.push_back({Pose2(block.corner, headings_[block.heading]), block.bound});
+        peaks.push_back({poseAt(block, 0), block.bound});
       } else if (++looked < kSearch.most_divided) {
         for (const Block& part : partsOf(block)) open_.push(part);
       } else if (looked < kSearch.most_looked) {
@@ -104,101 +112,94 @@ class BranchAndBound {
   std::size_t evaluations() const { return evaluations_; }
 
  private:
-  void turnTo(double heading) {
-    headings_.push_back(heading);
-    turned_.push_back(turned(heading));
+  // Side of a block [cells], and in metres.
+  static int cellsOf(std::size_t level) { return 1 << level; }
+  static double sizeOf(std::size_t level) { return SearchRasters::kCell * cellsOf(level); }
+
+  // Headings to either side of the middle.
+  static int headingsOf(const SearchWindow& window) {
+    return static_cast<int>(std::ceil(window.heading / kSearch.heading));
   }
 
-  std::vector<Eigen::Vector2d> turned(double heading) const {
-    const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(heading).toRotationMatrix();
-    std::vector<Eigen::Vector2d> turned;
-    turned.reserve(points_.size());
-    for (const Eigen::Vector2d& point : points_) turned.push_back(rotation * point);
-    return turned;
+  // Blocks along a side of the window, of which no more than can be looked at.
+  static int blocksAlong(const SearchWindow& window, std::size_t level) {
+    const double wanted =
+        std::ceil((2.0 * window.position + SearchRasters::kCell) / sizeOf(level));
+    const double most = std::sqrt(kSearch.most_blocks / (2.0 * headingsOf(window) + 1.0));
+    return static_cast<int>(std::min(wanted, std::max(1.0, std::floor(most))));
   }
 
-  static double cellOf(std::size_t level) {
-    return SearchRasters::kCell * static_cast<double>(1 << level);
-  }
-
-  double blocksAt(std::size_t level) const {
-    const double side = std::ceil((2.0 * window_.position + SearchRasters::kCell) / cellOf(level));
-    return side * side * static_cast<double>(headings_.size());
-  }
-
-  // Blocks a quarter of the window wide, unless that is too many.
-  void begin() {
+  // Blocks are a quarter of the window wide, or wider where that is too many.
+  static std::size_t firstLevel(const SearchWindow& window) {
     std::size_t level = 0;
     while (level + 1 < SearchRasters::kLevels &&
-           (cellOf(level + 1) <= 0.5 * window_.position || blocksAt(level) > kSearch.most_blocks)) {
+           (sizeOf(level + 1) <= 0.5 * window.position ||
+            blocksAlong(window, level) * sizeOf(level) < 2.0 * window.position)) {
       ++level;
     }
-    const double half = std::min(window_.position, widestAt(level));
-    const auto side =
-        static_cast<int>(std::ceil((2.0 * half + SearchRasters::kCell) / cellOf(level)));
-    const Eigen::Vector2d corner = window_.centre.translation().array() - half;
-    for (std::size_t k = 0; k < headings_.size(); ++k) {
-      for (int i = 0; i < side * side; ++i) {
-        const Eigen::Vector2d offset(i % side, i / side);
-        open_.push(blockAt(corner + cellOf(level) * offset, k, level));
-      }
+    return level;
+  }
+
+  void turnTo(double heading, const std::vector<Eigen::Vector2d>& points) {
+    const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(heading).toRotationMatrix();
+    std::vector<Eigen::Vector2i> cells;
+    cells.reserve(points.size());
+    for (const Eigen::Vector2d& point : points) {
+      cells.push_back(rasters_.cellOf(rotation * point + corner_));
+    }
+    headings_.push_back(heading);
+    cells_.push_back(std::move(cells));
+  }
+
+  void begin(int blocks) {
+    for (int i = 0; i < blocks * blocks; ++i) {
+      const int x = cellsOf(level_) * (i % blocks);
+      open_.push(blockAt(x, cellsOf(level_) * (i / blocks), headings_.size() - 1, level_));
     }
   }
 
-  // Half side of the widest window that is searched in blocks of a level.
-  double widestAt(std::size_t level) const {
-    const double blocks = kSearch.most_blocks / static_cast<double>(headings_.size());
-    return 0.5 * cellOf(level) * std::max(1.0, std::floor(std::sqrt(blocks)) - 1.0);
-  }
-
-  long sumAt(std::size_t level, const std::vector<Eigen::Vector2d>& points,
-             const Eigen::Vector2d& position) {
+  Block blockAt(int x, int y, std::size_t heading, std::size_t level) {
     ++evaluations_;
-    long sum = 0;
-    for (const Eigen::Vector2d& point : points) sum += rasters_.at(level, point + position);
-    return sum;
+    return {x, y, heading, level, rasters_.sum(level, cells_[heading], x, y)};
   }
 
-  Block blockAt(const Eigen::Vector2d& corner, std::size_t heading, std::size_t level) {
-    return {corner, heading, level, sumAt(level, turned_[heading], corner)};
-  }
-
-  std::vector<Block> partsOf(const Block& block) {
-    std::vector<Block> parts;
-    const double cell = cellOf(block.level - 1);
-    for (const double x : {0.0, cell}) {
-      for (const double y : {0.0, cell}) {
-        parts.push_back(
-            blockAt(block.corner + Eigen::Vector2d(x, y), block.heading, block.level - 1));
-      }
-    }
-    return parts;
+  std::array<Block, 4> partsOf(const Block& block) {
+    const std::size_t level = block.level - 1;
+    const auto part = [&](int x, int y) {
+      return blockAt(block.x + x * cellsOf(level), block.y + y * cellsOf(level), block.heading,
+                     level);
+    };
+    return {part(0, 0), part(1, 0), part(0, 1), part(1, 1)};
   }
 
   Block bestIn(Block block) {
     while (block.level > 0) {
-      const std::vector<Block> parts = partsOf(block);
+      const auto parts = partsOf(block);
       block = *std::max_element(parts.begin(), parts.end());
     }
     return block;
   }
 
+  // Pose so many cells from the corner of a block.
+  Pose2 poseAt(const Block& block, int cells) const {
+    const Eigen::Vector2d offset(block.x + cells, block.y + cells);
+    return {corner_ + SearchRasters::kCell * offset, headings_[block.heading]};
+  }
+
   // Tells whether all of a block is next to a peak that was found.
   bool isCovered(const Block& block, const std::vector<Pose>& peaks) const {
-    const double cell = block.level == 0 ? 0.0 : cellOf(block.level);
-    const Eigen::Vector2d opposite = block.corner.array() + cell;
-    const double heading = headings_[block.heading];
+    const Pose2 first = poseAt(block, 0);
+    const Pose2 last = poseAt(block, cellsOf(block.level) - 1);
     return std::any_of(peaks.begin(), peaks.end(), [&](const Pose& peak) {
-      return isTheSamePeak(Pose2(block.corner, heading), peak.T_odom_base) &&
-             isTheSamePeak(Pose2(opposite, heading), peak.T_odom_base);
+      return isTheSamePeak(first, peak.T_odom_base) && isTheSamePeak(last, peak.T_odom_base);
     });
   }
 
   const SearchRasters& rasters_;
-  const std::vector<Eigen::Vector2d>& points_;
-  const SearchWindow& window_;
+  std::size_t level_;
+  Eigen::Vector2d corner_;
   std::vector<double> headings_;
-  std::vector<std::vector<Eigen::Vector2d>> turned_;  // by heading
+  std::vector<std::vector<Eigen::Vector2i>> cells_;  // of the points, by heading
   std::priority_queue<Block> open_;
   std::size_t evaluations_ = 0;
 };
@@ -210,7 +211,7 @@ SearchResult searchRasters(const std::vector<SurfacePoint>& points, const Search
   const std::vector<Eigen::Vector2d> thinned = thinOut(points);
   if (thinned.empty()) return {};
   BranchAndBound search(rasters, thinned, window);
-  const double full = static_cast<double>(SearchRasters::kFull * thinned.size());
+  const double full = SearchRasters::kFull * static_cast<double>(thinned.size());
   SearchResult result;
   for (const Pose& peak : search.find(most)) {
     result.candidates.push_back({peak.T_odom_base, static_cast<double>(peak.sum) / full});

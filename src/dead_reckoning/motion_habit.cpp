@@ -17,7 +17,7 @@ constexpr struct {
   double change_fades = 20.0;
   double speed_fades = 100.0;
   // Ratio of what is expected to the rms of what was seen.
-  double change_factor = 1.5;
+  double change_factor = 0.8;
   double speed_factor = 2.0;
 } kHabit;
 

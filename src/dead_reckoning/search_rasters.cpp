@@ -35,7 +35,7 @@ SearchRasters::SearchRasters(const Submap& submap, const Eigen::Vector2d& centre
       corner_(centre_odom.array() - 0.5 * kCell * static_cast<double>(kSide)) {
   draw(submap.surfels());
   for (std::size_t level = 1; level < kLevels; ++level) {
-    levels_[level] = widened(levels_[level - 1], std::size_t{1} << (level - 1));
+    levels_[level] = widened(levels_[level - 1], 1 << (level - 1));
   }
 }
 
@@ -45,33 +45,34 @@ bool SearchRasters::show(const Submap& submap, const Eigen::Vector2d& centre_odo
 
 void SearchRasters::draw(const std::vector<Surfel>& surfels) {
   static const std::vector<std::uint8_t> smear = smearStamp();
-  levels_.front().assign(kSide * kSide, 0);
+  Raster& raster = levels_.front();
+  raster.assign(indexOf(-1, -1) + 1, 0);
   for (const Surfel& surfel : surfels) {
-    const Eigen::Vector2d place = (surfel.position - corner_) / kCell;
-    if (!(place.minCoeff() >= kHalf && place.maxCoeff() < static_cast<double>(kSide) - kHalf)) {
-      continue;
-    }
-    const auto x = static_cast<std::size_t>(place.x()) - kHalf;
-    const auto y = static_cast<std::size_t>(place.y()) - kHalf;
+    const Eigen::Vector2i cell = cellOf(surfel.position);
     const std::uint8_t* count = smear.data();
-    for (std::size_t row = y; row <= y + 2 * kHalf; ++row) {
-      std::uint8_t* cell = &levels_.front()[row * kSide + x];
-      for (int i = 0; i <= 2 * kHalf; ++i, ++cell, ++count) *cell = std::max(*cell, *count);
+    for (int y = cell.y() - kHalf; y <= cell.y() + kHalf; ++y) {
+      for (int x = cell.x() - kHalf; x <= cell.x() + kHalf; ++x, ++count) {
+        std::uint8_t& here = raster[indexOf(x, y)];
+        here = std::max(here, *count);
+      }
     }
   }
 }
 
 // The most of each cell and of those so many cells further along x, along y and along both.
-SearchRasters::Raster SearchRasters::widened(const Raster& raster, std::size_t shift) {
+SearchRasters::Raster SearchRasters::widened(const Raster& raster, int shift) {
   Raster along_x = raster;
-  for (std::size_t y = 0; y < kSide; ++y) {
-    const std::uint8_t* from = &raster[y * kSide];
-    std::uint8_t* to = &along_x[y * kSide];
-    for (std::size_t x = 0; x + shift < kSide; ++x) to[x] = std::max(from[x], from[x + shift]);
+  for (int y = 0; y < kSide; ++y) {
+    const std::uint8_t* from = &raster[indexOf(0, y)];
+    std::uint8_t* to = &along_x[indexOf(0, y)];
+    for (int x = 0; x < kSide - shift; ++x) to[x] = std::max(from[x], from[x + shift]);
+    for (int x = kSide - shift; x < kSide; ++x) to[x] = std::max(from[x], from[x + shift - kSide]);
   }
   Raster both = along_x;
-  for (std::size_t i = 0; i + shift * kSide < both.size(); ++i) {
-    both[i] = std::max(along_x[i], along_x[i + shift * kSide]);
+  for (int y = 0; y < kSide; ++y) {
+    const std::uint8_t* further = &along_x[indexOf(0, y + shift)];
+    std::uint8_t* to = &both[indexOf(0, y)];
+    for (int x = 0; x < kSide; ++x) to[x] = std::max(to[x], further[x]);
   }
   return both;
 }
