@@ -218,11 +218,7 @@ UncertainPose2 DeadReckoner::advance(const Match& match) {
       errors_.advance(T_odom_base_, match.prediction, match.step, match.elapsed, measurement);
   T_odom_base_ = match.T_odom_base;
   const Eigen::Vector3d twist = match.step.log() / match.elapsed;
-  if (match.outcome.state == MatchState::kFailed) {
-    habit_.doubt();
-  } else {
-    habit_.learn(twist_, twist, match.elapsed);
-  }
+  if (match.outcome.state != MatchState::kFailed) habit_.learn(twist_, twist, match.elapsed);
   acceleration_ = accelerationTo(twist, match.elapsed);
   twist_ = twist;
   moving_ = true;

@@ -18,7 +18,7 @@ constexpr struct {
   double speed_fades = 100.0;
   // Ratio of what is expected to the rms of what was seen.
   double change_factor = 0.8;
-  double speed_factor = 2.0;
+  double speed_factor = 1.2;
 } kHabit;
 
 Eigen::Vector2d sizeOf(const Eigen::Vector3d& twist) {
@@ -45,10 +45,6 @@ void MotionHabit::learn(const Eigen::Vector3d& expected, const Eigen::Vector3d& 
     follow(change[i], kHabit.change_fades, change_[i]);
     follow(speed[i], kHabit.speed_fades, speed_[i]);
   }
-}
-
-void MotionHabit::doubt() {
-  change_ = {limits_.acceleration, limits_.turn_acceleration};
 }
 
 CarrierConfig MotionHabit::expected() const {

@@ -17,8 +17,6 @@ class MotionHabit {
   void reset();
   /// Takes the twist [m/s, m/s, rad/s] that was found, and the one that was expected.
   void learn(const Eigen::Vector3d& expected, const Eigen::Vector3d& twist, double elapsed);
-  /// Expects everything that the carrier is capable of: it was lost.
-  void doubt();
 
   /// What the carrier is expected to do: no more than it is capable of.
   CarrierConfig expected() const;
