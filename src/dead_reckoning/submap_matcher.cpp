@@ -293,6 +293,7 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const 
   outcome.motion_gradient = best.match.motion_gradient / (factor * factor);
   outcome.common = residuals.common();
   outcome.inliers = best.evidence.inliers;
+  outcome.cost = best.evidence.cost;
   const bool predicted = isNarrow(task.window) && isNear(outcome.T_odom_base, task.prior);
   const bool is_taken = isClear(best, predicted) || isAlone(hypotheses);
   outcome.state = is_taken ? MatchState::kMatched : MatchState::kFailed;

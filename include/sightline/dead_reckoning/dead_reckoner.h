@@ -91,6 +91,10 @@ class DeadReckoner {
 
   /// Motion that is expected of the carrier, by how it has moved.
   CarrierConfig expectedMotion() const { return habit_.expected(); }
+  /// Step that is expected in so many seconds, without a prior.
+  geometry::Pose2 expectedStep(double elapsed) const {
+    return predictStep(habit_.expected(), twist_, elapsed).step;
+  }
 
   /// Forgets reference and motion. The next scan is at `T_odom_base`, of which it is certain.
   void reset(const geometry::Pose2& T_odom_base = {});
