@@ -17,6 +17,8 @@ constexpr struct {
   // than this share of the period; a steady scanner has none.
   double share_short = 0.06;
   double short_step = 0.3;
+  // Shorter than the period of any scanner [s]: inside a burst.
+  double least_period = 0.008;
   // Scans that may have been lost between two that got through, and how much longer than any other
   // step one has to be to be a pause.
   double periods_lost = 3.0;
@@ -57,6 +59,10 @@ double ScanClock::spanMedian() const {
 
 void ScanClock::judge() {
   period_ = spanMedian();
+  if (period_ < kClock.least_period) {
+    period_ = 1e-9 * static_cast<double>(stamps_.back() - stamps_.front()) /
+              static_cast<double>(stamps_.size() - 1);
+  }
   std::size_t shorter = 0;
   for (std::size_t i = 1; i < stamps_.size(); ++i) {
     if (step(i) < kClock.short_step * period_) ++shorter;
@@ -73,8 +79,9 @@ double ScanClock::longestStepBefore() const {
 }
 
 std::optional<scan::ElapsedTime> ScanClock::sinceBefore() const {
-  if (!is_of_arrival_) return std::nullopt;
+  if (stamps_.size() < kClock.fewest || period_ <= 0.0) return std::nullopt;
   const double by_stamps = step(stamps_.size() - 1);
+  if (!is_of_arrival_ && by_stamps > 0.0) return std::nullopt;
   if (by_stamps > kClock.pause * longestStepBefore()) return std::nullopt;
   return scan::ElapsedTime{period_, std::max(kClock.periods_lost * period_, by_stamps),
                            kClock.period_sigma * period_};

@@ -21,7 +21,8 @@ class ScanClock {
 
   /// Whether the stamps are those of arrival.
   bool isOfArrival() const { return is_of_arrival_; }
-  /// Time between the last two scans; nothing where the stamps tell it.
+  /// Time between the last two scans; nothing where the stamps tell it. They do not where they are
+  /// those of arrival, nor where a single one goes back.
   std::optional<scan::ElapsedTime> sinceBefore() const;
 
  private:
