@@ -128,11 +128,14 @@ void ScanOdometry::reset() {
   before_.reset();
   on_floor_.clear();
   is_new_ = true;
+  clock_was_set_ = false;
+  shift_ = 0;
+  period_ = 0;
 }
 
-void ScanOdometry::restartClock() {
-  reckoner_.restartClock();
-  before_.reset();
+// Wheels whose breaks nobody has bridged are taken as they are.
+const std::optional<Pose2>& ScanOdometry::pathOf(const LocatedScan& located) {
+  return located.T_path_base ? located.T_path_base : located.T_odom_base;
 }
 
 // The base goes on as before but for the turn.
@@ -181,8 +184,9 @@ ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
   if (!before_) return std::nullopt;
   const double elapsed = elapsedOf(located);
   Prior prior;
-  if (located.T_odom_base && before_->T_odom_base) {
-    const Pose2 step = geometry::between(*before_->T_odom_base, *located.T_odom_base);
+  const auto& T_path_base = pathOf(located);
+  if (T_path_base && before_->T_path_base && !located.odometry_broke) {
+    const Pose2 step = geometry::between(*before_->T_path_base, *T_path_base);
     if (isPossible(step, elapsed)) prior = wheelPrior(config_.wheels, step);
   }
   if (!located.turn) return prior;
@@ -196,7 +200,32 @@ ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
   return prior;
 }
 
+void ScanOdometry::goOnInNewTime(const LocatedScan& located) {
+  clock_was_set_ = false;
+  const auto& T_path_base = pathOf(located);
+  const bool is_there = before_ && period_ > 0 && before_->T_path_base && T_path_base &&
+                        !located.odometry_broke && isSamePlace(*before_->T_path_base, *T_path_base);
+  if (is_there) {
+    shift_ = before_->stamp + period_ - located.scan.stamp;
+    return;
+  }
+  shift_ = 0;
+  reckoner_.restartClock();
+  before_.reset();
+}
+
 std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
+    const LocatedScan& located) {
+  if (clock_was_set_) goOnInNewTime(located);
+  if (shift_ == 0) return updateInTime(located);
+  LocatedScan shifted = located;
+  shifted.scan.stamp += shift_;
+  auto update = updateInTime(shifted);
+  if (update) update->stamp -= shift_;
+  return update;
+}
+
+std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::updateInTime(
     const LocatedScan& located) {
   if (is_new_) reckoner_.reset(located.T_odom_base.value_or(Pose2()));
   const Pose2 T_base_sensor = located.T_base_sensor.value_or(Pose2());
@@ -207,7 +236,8 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
                                       : matchLevel(scan, located, T_base_sensor);
   if (!update) return update;
   is_new_ = false;
-  before_ = Before{located.scan.stamp, located.T_odom_base, update->twist};
+  if (before_) period_ = std::llround(1e9 * elapsedOf(located));
+  before_ = Before{located.scan.stamp, pathOf(located), update->twist};
   return update;
 }
 
