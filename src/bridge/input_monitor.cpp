@@ -66,6 +66,10 @@ void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("last reason", last_reason_);
   for (const auto& [key, text] : notes_) status.add(key, text);
   for (const auto& [text, number] : warnings_) status.add(text, number);
+  if (!noise_) return;
+  status.add("noise sigma [m]", noise_->sigma);
+  status.add("noise sigma per metre", noise_->sigma_per_metre);
+  status.add("step of the ranges [m]", noise_->step);
 }
 
 }  // namespace sightline::bridge

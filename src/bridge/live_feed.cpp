@@ -110,6 +110,7 @@ void LiveFeed::deliver() {
 
 void LiveFeed::deliver(pipeline::FeedResult& result) {
   InputMonitor& monitor = *scanners_[result.scanner].monitor;
+  if (const auto* noise = feed_.learnedNoise(result.scanner)) monitor.show(*noise);
   if (!result.located) return monitor.drop(result.reason);
   if (result.located->clock_restarted) {
     monitor.warn("the clock was set: started again in the new time");

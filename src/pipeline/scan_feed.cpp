@@ -7,6 +7,13 @@
 
 namespace sightline::pipeline {
 
+namespace {
+
+// Longest burst in which stamps of arrival go back [ns].
+constexpr std::int64_t kLongestBurst = 10'000'000'000;
+
+}  // namespace
+
 ScanFeed::ScanFeed(const FeedConfig& config, const Frames& frames, const FeedNeeds& needs,
                    const Transforms& transforms)
     : config_(config), locator_(config, frames, needs, transforms) {
@@ -15,6 +22,7 @@ ScanFeed::ScanFeed(const FeedConfig& config, const Frames& frames, const FeedNee
 
 std::size_t ScanFeed::addScanner() {
   scanners_.emplace_back();
+  scanners_.back().noise = scan::LearnedNoise(config_.noise);
   return scanners_.size() - 1;
 }
 
@@ -26,6 +34,13 @@ void ScanFeed::add(std::size_t scanner, motion::RangeScan range_scan, std::int64
   admit({scanner, std::move(range_scan.scan), std::move(range_scan.head), now});
 }
 
+// Tells whether a stamp leaps since it is that of an arrival in bursts.
+bool ScanFeed::isOnlyLate(const ArrivedScan& arrived) const {
+  const Scanner& scanner = scanners_[arrived.scanner];
+  return scanner.clock.isOfArrival() &&
+         std::abs(scanner.stamps.leap(arrived.scan.stamp)) < 1e-9 * static_cast<double>(kLongestBurst);
+}
+
 void ScanFeed::admit(ArrivedScan arrived) {
   Scanner& scanner = scanners_[arrived.scanner];
   const std::string fault = faultOfStamp(arrived.scan.stamp);
@@ -35,6 +50,7 @@ void ScanFeed::admit(ArrivedScan arrived) {
     return;
   }
   arrived.scan.stamp += std::llround(1e9 * config_.time_offset);
+  if (isOnlyLate(arrived)) return take(std::move(arrived));
   switch (scanner.stamps.judge(arrived.scan.stamp, arrived.arrival)) {
     case StampWatch::Verdict::kGood:
       dropStrays(scanner);
@@ -44,6 +60,7 @@ void ScanFeed::admit(ArrivedScan arrived) {
       scanner.strays.push_back(std::move(arrived));
       return;
     case StampWatch::Verdict::kClockSet:
+      scanner.clock.restart();
       scanner.strays.front().begins_new_time = true;
       for (ArrivedScan& stray : std::exchange(scanner.strays, {})) take(std::move(stray));
       return take(std::move(arrived));
@@ -71,21 +88,35 @@ void ScanFeed::take(ArrivedScan arrived) {
     return;
   }
   scanner.misses.mark(arrived.scan);
-  scan::applyNoise(config_.noise, arrived.scan);
+  if (config_.noise.kind == scan::NoiseKind::kEstimated) {
+    scanner.noise.apply(arrived.scan);
+  } else {
+    scan::applyNoise(config_.noise, arrived.scan);
+  }
   enqueue(std::move(arrived));
 }
 
 void ScanFeed::enqueue(ArrivedScan arrived) {
-  ++scanners_[arrived.scanner].counts.arrived;
-  // Scans of the time before the clock was set back stay in front.
-  const std::int64_t stamp = arrived.scan.stamp;
+  Scanner& scanner = scanners_[arrived.scanner];
+  ++scanner.counts.arrived;
+  scanner.clock.add(arrived.scan.stamp);
+  arrived.elapsed = scanner.clock.sinceBefore();
   auto place = waiting_.end();
-  while (place != waiting_.begin()) {
-    const std::int64_t other = std::prev(place)->scan.stamp;
-    if (other <= stamp || other > stamp + StampWatch::kSetBack) break;
-    --place;
-  }
+  while (place != waiting_.begin() && goesBefore(arrived, *std::prev(place))) --place;
   waiting_.insert(place, std::move(arrived));
+}
+
+// Scans of the time before the clock was set back stay in front.
+bool ScanFeed::goesBefore(const ArrivedScan& arrived, const ArrivedScan& other) const {
+  const bool are_in_order =
+      arrived.scanner == other.scanner && scanners_[other.scanner].clock.isOfArrival();
+  return !are_in_order && other.scan.stamp > arrived.scan.stamp &&
+         other.scan.stamp <= arrived.scan.stamp + StampWatch::kSetBack;
+}
+
+const scan::RangeNoise* ScanFeed::learnedNoise(std::size_t scanner) const {
+  const scan::RangeNoise& noise = scanners_[scanner].noise.noise();
+  return noise.is_learned ? &noise : nullptr;
 }
 
 void ScanFeed::refuse(std::size_t scanner, const std::string& reason) {
@@ -130,7 +161,7 @@ std::optional<FeedResult> ScanFeed::next(std::int64_t now) {
   if (waiting_.empty()) return std::nullopt;
   const double waited = 1e-9 * static_cast<double>(now - waiting_.front().arrival);
   // A scan of the new time behind it: what it waits for will not come any more.
-  const bool is_over = isSetBack(waiting_.back().scan.stamp) && waiting_.size() > 1;
+  const bool is_over = isSetBack(waiting_.back()) && waiting_.size() > 1;
   return settle(
       {!is_over && waited < config_.patience, !is_over && waited < config_.start_patience});
 }
@@ -142,13 +173,14 @@ std::optional<FeedResult> ScanFeed::flush() {
   return settle({false, false});
 }
 
-bool ScanFeed::isSetBack(std::int64_t stamp) const {
-  return newest_ && stamp < *newest_ - StampWatch::kSetBack;
+bool ScanFeed::isSetBack(const ArrivedScan& arrived) const {
+  const std::int64_t back = arrived.elapsed ? kLongestBurst : StampWatch::kSetBack;
+  return newest_ && arrived.scan.stamp < *newest_ - back;
 }
 
 std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
   ArrivedScan& front = waiting_.front();
-  if (front.begins_new_time || isSetBack(front.scan.stamp)) {
+  if (front.begins_new_time || isSetBack(front)) {
     front.begins_new_time = false;
     newest_.reset();
     for (Scanner& scanner : scanners_) scanner.before.reset();
@@ -157,7 +189,7 @@ std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
   }
   ScanLocator::Outcome outcome;
   const auto& before = scanners_[front.scanner].before;
-  if (before && front.scan.stamp <= *before) {
+  if (before && front.scan.stamp <= *before && !front.elapsed) {
     const bool is_same = front.scan.stamp == *before;
     outcome.reason = is_same ? "the stamp of the scan before it" : "older than the scan before it";
   } else {
@@ -175,9 +207,18 @@ FeedResult ScanFeed::drop(const ArrivedScan& arrived, const std::string& reason)
 }
 
 FeedResult ScanFeed::finish(const ArrivedScan& arrived, ScanLocator::Outcome outcome) {
-  if (!outcome.located) return drop(arrived, outcome.reason);
   Scanner& scanner = scanners_[arrived.scanner];
+  if (!outcome.located) {
+    if (arrived.elapsed) scanner.skipped += arrived.elapsed->usual;
+    return drop(arrived, outcome.reason);
+  }
   FeedResult result{arrived.scanner, arrived.scan.stamp, std::move(outcome.located), ""};
+  if (const scan::RangeNoise* noise = learnedNoise(arrived.scanner)) result.located->noise = *noise;
+  const double skipped = std::exchange(scanner.skipped, 0.0);
+  if (const auto& time = arrived.elapsed) {
+    result.located->elapsed =
+        scan::ElapsedTime{time->usual + skipped, time->longest + skipped, time->sigma};
+  }
   ++scanner.counts.located;
   if (!result.located->motion_known) ++scanner.counts.without_motion;
   if (result.located->odometry_broke) ++scanner.counts.odometry_broke;

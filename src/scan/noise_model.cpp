@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sightline/scan/estimated_noise.h"
+#include "sightline/scan/learned_noise.h"
 
 namespace sightline::scan {
 
@@ -11,12 +11,14 @@ void NoiseModel::visit(config::FieldVisitor& visitor) {
       "kind", kind, {"constant", "proportional", "uniform", "isotropic", "intensity", "estimated"},
       "shape of the noise along a beam: always the same; growing with the range; of bounds "
       "(jensfelt eqs 2-4); of points, alike in x and y; falling with the intensity "
-      "(pears eq. 2); or estimated from the scans themselves");
+      "(pears eq. 2); or learned from the first scans of each scanner and kept");
   visitor.number(
       "sigma", sigma,
       {"m",
        {1e-6, 10.0},
-       "standard deviation along a beam, or its constant part, or its least (estimated)"});
+       "standard deviation along a beam, or its constant part; estimated: until scans show it"});
+  visitor.number("least_sigma", least_sigma,
+                 {"m", {1e-6, 10.0}, "estimated: the standard deviation is never taken for less"});
   visitor.number(
       "sigma_per_metre", sigma_per_metre,
       {"1", {0.0, 1.0}, "proportional: share of the range added to sigma in quadrature"});
@@ -80,13 +82,13 @@ Eigen::Matrix2d uniformCovariance(double range, double angle, double range_half_
 }
 
 void applyNoise(const NoiseModel& model, Scan& scan) {
+  if (model.kind == NoiseKind::kEstimated) return LearnedNoise(model).apply(scan);
   std::vector<double> variances(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     const double intensity = scan.intensities().empty() ? 0.0 : scan.intensities()[i];
     variances[i] = model.rangeVariance(scan.ranges()[i], intensity);
   }
   scan.setRangeVariances(std::move(variances));
-  if (model.kind == NoiseKind::kEstimated) raiseToEstimate(scan);
   scan.angular_variance = model.angularVariance();
   scan.transverse_variance = model.kind == NoiseKind::kIsotropic ? model.sigma * model.sigma : 0.0;
 }

@@ -1,18 +1,13 @@
 // Line extraction: accuracy, covariance, completeness and time in a room with two boxes where the
 // truth is known, beside the floor that an oracle reaches who knows which beam hit which wall; and
 // what is explained of a real recording.
-#include <chrono>
 #include <cstdlib>
 #include <string>
 
-#include "allocations.h"
-#include "lines/door.h"
+#include "lines/cost.h"
 #include "lines/motion.h"
 #include "lines/recording.h"
-#include "lines/round_things.h"
-#include "lines/score.h"
-#include "lines/view.h"
-#include "lines/world.h"
+#include "lines/scenario.h"
 #include "live_node.h"
 #include "sightline/LineSegmentArray.h"
 #include "sightline/bridge/scan_conversion.h"
@@ -20,75 +15,6 @@
 
 namespace sightline::bench {
 namespace {
-
-constexpr int kPoses = 1000;
-
-lines::LineExtractorConfig settings() {
-  lines::LineExtractorConfig config;
-  config.min_length = 0.5;
-  config.min_beams = 10;
-  return config;
-}
-
-template <class Action>
-double microseconds(Action action) {
-  const auto begin = std::chrono::steady_clock::now();
-  action();
-  const auto end = std::chrono::steady_clock::now();
-  return std::chrono::duration<double, std::micro>(end - begin).count();
-}
-
-/// The yardstick of the times: the same scan turned into x and y with the library's functions.
-double convert(const scan::Scan& scan) {
-  static std::vector<double> x(4096), y(4096);
-  const auto& angles = scan.geometry()->angles();
-  const double time = microseconds([&] {
-    for (std::size_t i = 0; i < scan.beams(); ++i) {
-      x[i] = scan.ranges()[i] * std::cos(angles[i]);
-      y[i] = scan.ranges()[i] * std::sin(angles[i]);
-    }
-  });
-  // Or the optimiser would leave the work out.
-  asm volatile("" : : "r"(x.data()), "r"(y.data()) : "memory");
-  return time;
-}
-
-using WorldAt = PlaneWorld (*)(const geometry::Pose2& pose, std::mt19937& random);
-PlaneWorld plainRoom(const geometry::Pose2&, std::mt19937&) {
-  return roomWithBoxes();
-}
-PlaneWorld doorRoom(const geometry::Pose2&, std::mt19937&) {
-  return roomWithDoor();
-}
-
-/// Once for all scenarios: what is allocated by scans after the first.
-std::size_t allocated = 0;
-
-Score run(const std::string& name, const Sensor& sensor, WorldAt world_at) {
-  lines::LineExtractor extractor(settings());
-  std::mt19937 random(2026);
-  Score score;
-  DoorScore door;
-  RoundScore legs;
-  for (int i = 0; i < kPoses; ++i) {
-    const geometry::Pose2 pose = randomPose(random);
-    const PlaneWorld world = world_at(pose, random);
-    const View view = Viewer(world, sensor, pose).view(random);
-    const std::size_t before = allocations;
-    extractor.extract(view.scan);
-    if (i > 0) allocated += allocations - before;
-    score.microseconds.push_back(microseconds([&] { extractor.extract(view.scan); }));
-    score.conversion.push_back(convert(view.scan));
-    const auto& segments = extractor.extract(view.scan);
-    const std::vector<int> matched = score.add(view, segments);
-    if (world_at == doorRoom) door.add(view, pose, segments, matched);
-    legs.add(view, world, pose, extractor.arcs());
-  }
-  score.printFigures(name);
-  if (world_at == doorRoom) door.printFigures(name);
-  if (world_at == roomWithLegs) legs.printFigures(name);
-  return score;
-}
 
 /// A wall of three metres, from x = `from` on and `distance` ahead of a sensor at the origin.
 void runSingleWall(const std::string& name, double from, double distance) {
@@ -105,6 +31,37 @@ void runSingleWall(const std::string& name, double from, double distance) {
   print("lines." + name + ".found", score.foundPercent(), "%");
   print("lines." + name + ".in_gate", score.errors.share(), "%");
   print("lines." + name + ".nees", score.errors.meanNees(), "1");
+}
+
+/// Worlds and scanners unlike those above.
+void otherWorlds() {
+  const double wide = 1.5 * geometry::kPi;
+  const double half_turn = geometry::kPi;
+  Sensor with_outliers{1081, wide, 0.01};
+  with_outliers.outlier_share = 0.05;
+  Sensor proportional{1081, wide, 0.002};
+  proportional.sigma_per_metre = 0.01;
+  Sensor counts_5cm{361, half_turn, 0.01};
+  counts_5cm.step = 0.05;
+  Sensor counts_1cm{361, half_turn, 0.005};
+  counts_1cm.step = 0.01;
+  Sensor cheap{640, 2.0 * geometry::kPi, 0.02};
+  cheap.sigma_per_metre = 0.01;
+  cheap.angular_sigma = geometry::radians(0.1);
+  Sensor turning{1081, wide, 0.01, 0.0, 0.1};
+  turning.turn_rate = 3.0;
+  run("office_s1", {1081, wide, 0.01}, office);
+  run("office_s3", {1081, wide, 0.03}, office);
+  run("corridor_s1", {1081, wide, 0.01}, corridor);
+  run("hall_s1", {1081, wide, 0.01}, hall);
+  run("obtuse_s1", {1081, wide, 0.01}, obtuseRoom);
+  run("obtuse_s3", {1081, wide, 0.03}, obtuseRoom);
+  run("outliers5", with_outliers, lRoom);
+  run("proportional", proportional, lRoom);
+  run("counts_5cm", counts_5cm, lRoom);
+  run("counts_1cm", counts_1cm, lRoom);
+  run("cheap", cheap, lRoom);
+  run("turning_3rad", turning, lRoom);
 }
 
 void runRecording() {
@@ -157,13 +114,15 @@ int main() {
   run("1081_s3", {1081, wide, 0.03}, plainRoom);
   run("1081_s1_invalid5", {1081, wide, 0.01, 0.05}, plainRoom);
   run("1081_s1_door", {1081, wide, 0.01}, doorRoom);
-  run("1081_s1_legs8", {1081, wide, 0.01}, roomWithLegs);
+  run("1081_s1_legs8", {1081, wide, 0.01}, legsRoom);
   run("720_wrap_s1", {720, whole_turn, 0.01}, plainRoom);
   const Score moving = run("1081_s1_moving", {1081, wide, 0.01, 0.0, 0.075}, plainRoom);
   print("lines.1081_s1_moving.rho_over_standing",
         median(moving.errors.rho_mm) / median(standing.errors.rho_mm), "1");
   print("lines.1081_s1_moving.phi_over_standing",
         median(moving.errors.phi_mrad) / median(standing.errors.phi_mrad), "1");
+  otherWorlds();
+  measureCost();
   print("lines.allocations", static_cast<double>(allocated), "1");
   runSingleWall("wall_facing", -1.5, 2.0);
   runSingleWall("wall_aside", 0.0, 2.0);

@@ -1,5 +1,8 @@
 #include "scan_feed_test.h"
 
+#include <cmath>
+#include <random>
+
 #include <gmock/gmock.h>
 
 namespace sightline::pipeline {
@@ -11,6 +14,45 @@ using test::ScanFeedTest;
 using test::sweep;
 using testing::Contains;
 using testing::Pair;
+
+// 361 beams at a wall two metres ahead, with noise; every third beam of a cluttered scan sees
+// something nearer.
+scan::Scan wallAhead(double sigma, bool is_cluttered, std::mt19937& random) {
+  const auto geometry = scan::ScanGeometry::uniform(-1.2, 2.4 / 360.0, 361, 0.0, 0.1, 10.0);
+  std::normal_distribution<double> noise(0.0, sigma);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < geometry->beams(); ++i) {
+    const double to_wall = 2.0 / geometry->cosines()[i] + noise(random);
+    const bool is_near = is_cluttered && i % 3 == 0;
+    ranges.push_back(is_near ? 0.1 + 0.5 * to_wall : to_wall);
+  }
+  return {geometry, at(10.0), std::move(ranges)};
+}
+
+// Sigma of the first beam of a scan that went through the feed.
+double sigmaOf(const std::vector<FeedResult>& results) {
+  return std::sqrt(results.at(0).located->scan.rangeVariances().front());
+}
+
+TEST_F(ScanFeedTest, LearnsTheNoiseOfEachScannerAndKeepsIt) {
+  start({}, FeedNeeds{false, false});
+  std::mt19937 random(1);
+  EXPECT_EQ(feed_->learnedNoise(0), nullptr);
+  for (int i = 0; i < 20; ++i) {
+    for (const std::size_t scanner : {0, 1}) {
+      feed_->add(scanner, wallAhead(scanner == 0 ? 0.01 : 0.03, false, random), at(10.0));
+      const auto results = all(10.0);
+      if (i < 19) continue;
+      EXPECT_NEAR(sigmaOf(results), scanner == 0 ? 0.01 : 0.03, 0.003);
+    }
+  }
+  ASSERT_NE(feed_->learnedNoise(0), nullptr);
+  const scan::RangeNoise learned = *feed_->learnedNoise(0);
+  feed_->add(0, wallAhead(0.01, true, random), at(10.0));
+  const auto results = all(10.0);
+  const double range = results.at(0).located->scan.ranges().front();
+  EXPECT_DOUBLE_EQ(sigmaOf(results), std::sqrt(learned.variance(range)));
+}
 
 TEST_F(ScanFeedTest, GoesOnWithoutWhatDoesNotComeInTime) {
   FeedConfig config;

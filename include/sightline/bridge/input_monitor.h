@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
 #include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/log_throttle.h"
+#include "sightline/scan/learned_noise.h"
 
 namespace sightline::bridge {
 
@@ -37,6 +39,8 @@ class InputMonitor {
   void drop(const std::string& reason);
   /// Drops a message that nobody is to blame for: while a graph starts, some come too early.
   void skip(const std::string& reason);
+  /// Shows the noise that has been learned of the scanner.
+  void show(const scan::RangeNoise& noise) { noise_ = noise; }
   /// Logs something about the messages, and shows it in diagnostics: the same key once.
   void note(const std::string& key, const std::string& text);
   /// Logs something that may happen again, once every 10 s, and counts it for diagnostics.
@@ -52,6 +56,7 @@ class InputMonitor {
   std::size_t dropped_ = 0;
   std::size_t dropped_before_ = 0;  // at the last report
   std::string last_reason_;
+  std::optional<scan::RangeNoise> noise_;
   std::map<std::string, std::string> notes_;
   std::map<std::string, std::size_t> warnings_;
   LogThrottle drops_;

@@ -27,10 +27,4 @@ inline double chiSquareLimit(double sigmas, double degrees_of_freedom) {
   return degrees_of_freedom * root * root * root;
 }
 
-/// Median of χ² over its degrees of freedom (Wilson and Hilferty 1931).
-constexpr double chiSquareMedianRatio(double degrees_of_freedom) {
-  const double root = 1.0 - 2.0 / (9.0 * degrees_of_freedom);
-  return root * root * root;
-}
-
 }  // namespace sightline::geometry

@@ -7,6 +7,8 @@
 
 #include "sightline/geometry/pose2.h"
 #include "sightline/motion/floor.h"
+#include "sightline/scan/elapsed_time.h"
+#include "sightline/scan/learned_noise.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::pipeline {
@@ -19,6 +21,9 @@ struct LocatedScan {
   scan::Scan scan;
   bool upside_down = false;   ///< whether the sensor hangs so, and the scan was mirrored
   bool motion_known = false;  ///< within the sweep
+  std::optional<scan::RangeNoise> noise;  ///< of the scanner, where it was learned
+  /// Time since the scanner's scan before, where its stamps do not tell it (ScanClock).
+  std::optional<scan::ElapsedTime> elapsed;
   /// Mounting at the stamp, which is the first beam of a turning sensor.
   std::optional<geometry::Pose2> T_base_sensor;
   std::optional<geometry::Pose2> T_odom_base;  ///< by wheels, at the stamp

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "sightline/pipeline/scan_clock.h"
 #include "sightline/pipeline/scan_locator.h"
 #include "sightline/pipeline/stamp_watch.h"
+#include "sightline/scan/learned_noise.h"
 #include "sightline/scan/miss_value.h"
 #include "sightline/scan/turn_gatherer.h"
 
@@ -33,9 +35,9 @@ struct FeedCounts {
 };
 
 /// Takes scans as they arrive and gives them back, those that wait in the order of their stamps and
-/// each scanner's own always so, completed by
-/// transforms, odometry and an inertial sensor, or with the reason why it is not used. A scan waits
-/// for what belongs to it as long as the settings' patience lasts.
+/// each scanner's own always so, completed by transforms, odometry and an inertial sensor, or with
+/// the reason why it is not used. A scan waits for what belongs to it as long as the settings'
+/// patience lasts. A scanner whose stamps are those of arrival keeps the order of arrival.
 ///
 /// A stamp that leaps against the ones before it is left out, unless those after it go on from
 /// there: then the clock was set, and the scans of the new time are used.
@@ -50,7 +52,8 @@ class ScanFeed {
 
   /// Returns the scanner's number, from 0 on.
   std::size_t addScanner();
-  /// A scan gets its variances by the settings' noise model; a range scan brings its own.
+  /// A scan gets its variances by the settings' noise model, or by what this scanner's scans have
+  /// shown (NoiseKind::kEstimated); a range scan brings its own.
   void add(std::size_t scanner, scan::Scan scan, std::int64_t now);
   void add(std::size_t scanner, motion::RangeScan range_scan, std::int64_t now);
   /// Counts a message that is no scan.
@@ -65,6 +68,8 @@ class ScanFeed {
   std::optional<FeedResult> flush();
 
   const FeedCounts& counts(std::size_t scanner) const { return scanners_[scanner].counts; }
+  /// Noise of a scanner, where that is learned from its scans; null where the settings say it.
+  const scan::RangeNoise* learnedNoise(std::size_t scanner) const;
   std::size_t scanners() const { return scanners_.size(); }
 
  private:
@@ -74,6 +79,9 @@ class ScanFeed {
     std::vector<ArrivedScan> strays;  // whose stamps may be those of a new time
     scan::TurnGatherer turns;
     scan::MissValue misses;
+    scan::LearnedNoise noise;
+    ScanClock clock;
+    double skipped = 0.0;  // time of scans that were dropped since the last one, by the clock [s]
     std::optional<std::int64_t> before;  // stamp of its last scan that was located
   };
 
@@ -81,11 +89,13 @@ class ScanFeed {
   void dropStrays(Scanner& scanner);
   void take(ArrivedScan arrived);
   void enqueue(ArrivedScan arrived);
+  bool isOnlyLate(const ArrivedScan& arrived) const;
+  bool goesBefore(const ArrivedScan& arrived, const ArrivedScan& other) const;
   std::optional<FeedResult> nextDropped();
   std::optional<FeedResult> settle(const Patience& patience);
   FeedResult finish(const ArrivedScan& arrived, ScanLocator::Outcome outcome);
   FeedResult drop(const ArrivedScan& arrived, const std::string& reason);
-  bool isSetBack(std::int64_t stamp) const;
+  bool isSetBack(const ArrivedScan& arrived) const;
 
   FeedConfig config_;
   ScanLocator locator_;

@@ -34,6 +34,7 @@ struct ScanOdometryConfig {
 };
 
 /// Odometry from scans, with what goes around the matching: the prior from wheels or a gyroscope,
+/// which is left out of a step that no carrier makes or that the scans explain better without it,
 /// and for a scanner that leans the beams that ended on floor or ceiling, which are left out.
 ///
 /// The frame odom is that of the wheels where they are known at the first scan, otherwise the
@@ -71,13 +72,19 @@ class ScanOdometry {
   using Update = dead_reckoning::DeadReckoningUpdate;
   using Prior = std::optional<dead_reckoning::MotionPrior>;
 
+  double elapsedOf(const LocatedScan& located) const;
   static const std::optional<geometry::Pose2>& pathOf(const LocatedScan& located);
   std::optional<Update> updateInTime(const LocatedScan& located);
   void goOnInNewTime(const LocatedScan& located);
   Prior priorOf(const LocatedScan& located) const;
   dead_reckoning::MotionPrior asBefore(double elapsed, double turn) const;
-  std::optional<Update> matchLeaning(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                                     const Prior& prior);
+  bool isPossible(const geometry::Pose2& step, double elapsed) const;
+  std::optional<dead_reckoning::Match> match(const scan::Scan& scan, const LocatedScan& located,
+                                             const geometry::Pose2& T_base_sensor) const;
+  std::optional<Update> matchLevel(const scan::Scan& scan, const LocatedScan& located,
+                                   const geometry::Pose2& T_base_sensor);
+  std::optional<Update> matchLeaning(const scan::Scan& scan, const LocatedScan& located,
+                                     const geometry::Pose2& T_base_sensor);
 
   ScanOdometryConfig config_;
   dead_reckoning::DeadReckoner reckoner_;

@@ -13,13 +13,14 @@ enum class NoiseKind {
   kUniform,       ///< uniform in range and angle, as a quantising scanner (jensfelt eqs 2-4)
   kIsotropic,     ///< the same in every direction of the plane (jensfelt's runs: 50 mm)
   kIntensity,     ///< a constant part and a part that falls with the intensity (pears eq. 2 scaled)
-  kEstimated,     ///< what each scan shows (estimated_noise.h), for a scanner that nobody knows
+  kEstimated,     ///< learned from scans (learned_noise.h), for a scanner that nobody knows
 };
 
 /// Accuracy of a beam.
 struct NoiseModel {
   NoiseKind kind = NoiseKind::kConstant;
-  double sigma = 0.01;              ///< [m]; the least of kEstimated
+  double sigma = 0.01;              ///< [m]; kEstimated: until scans show it
+  double least_sigma = 0.002;       ///< kEstimated: [m]
   double sigma_per_metre = 0.0;     ///< kProportional
   double range_half_width = 0.025;  ///< kUniform: Δr [m]
   double angle_half_width = 0.0;    ///< kUniform: Δα [rad]
@@ -39,7 +40,7 @@ struct NoiseModel {
 Eigen::Matrix2d uniformCovariance(double range, double angle, double range_half_width,
                                   double angle_half_width);
 
-/// Fills the variances of a scan.
+/// Fills the variances of a scan. kEstimated: from this scan alone; LearnedNoise remembers.
 void applyNoise(const NoiseModel& model, Scan& scan);
 
 }  // namespace sightline::scan

@@ -24,6 +24,7 @@ class DoorScore {
     addEnd(segments[static_cast<std::size_t>(b)], pose.inverse() * Eigen::Vector2d(8.6, 3.0));
   }
 
+  bool isSeen() const { return separate_ > 0; }
   void printFigures(const std::string& scenario) const {
     const std::string name = "lines." + scenario + ".";
     print(name + "both_sides_seen", static_cast<double>(seen_), "scans");

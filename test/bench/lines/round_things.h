@@ -29,6 +29,7 @@ class RoundScore {
     excess_ += static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
   }
 
+  bool isSeen() const { return wanted_ > 0; }
   void printFigures(const std::string& scenario) const {
     const std::string name = "lines." + scenario + ".";
     print(name + "circles_found",

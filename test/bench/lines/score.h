@@ -17,7 +17,17 @@ constexpr double kGate95 = geometry::kChiSquare95Of2;
 struct LineErrors {
   std::vector<double> rho_mm, phi_mrad, end_mm;
   std::size_t in_gate = 0;
+  std::size_t ends_within_2_sigma = 0;
   double nees = 0.0;
+
+  void addEnds(const geometry::LineSegment& segment, const geometry::Segment& true_ends) {
+    const Eigen::Vector2d along = segment.line.direction();
+    const auto isWithin = [&](const Eigen::Vector2d& error, double sigma) {
+      return std::abs(along.dot(error)) <= 2.0 * sigma;
+    };
+    if (isWithin(segment.ends.start - true_ends.start, segment.start_sigma)) ++ends_within_2_sigma;
+    if (isWithin(segment.ends.end - true_ends.end, segment.end_sigma)) ++ends_within_2_sigma;
+  }
 
   void add(const geometry::PolarLine& line, const geometry::PolarLine& truth,
            const geometry::Segment& ends, const geometry::Segment& true_ends) {
@@ -62,11 +72,40 @@ inline bool isWanted(const VisibleSpan& span) {
   return span.beams >= 12 && span.ends.length() >= 0.6;
 }
 
+/// Places where more than four beams in a row, and more than 0.45 m, pass through a segment.
+inline std::size_t openingsUnder(const geometry::LineSegment& segment, const View& view) {
+  constexpr double kBehind = 0.1;  // m
+  const std::size_t count = view.scan.beams();
+  const std::size_t last = segment.last_beam + (segment.last_beam < segment.first_beam ? count : 0);
+  std::size_t openings = 0;
+  std::size_t passing = 0;
+  Eigen::Vector2d before(0, 0);
+  for (std::size_t i = segment.first_beam; i <= last; ++i) {
+    const std::size_t beam = i % count;
+    const Eigen::Vector2d direction = view.scan.direction(beam);
+    const Eigen::Vector2d origin = view.scan.sensorMotion().empty()
+                                       ? Eigen::Vector2d::Zero()
+                                       : view.scan.sensorMotion()[beam].translation();
+    const double range =
+        -segment.line.signedDistance(origin) / segment.line.normal().dot(direction);
+    if (view.true_ranges[beam] > range + kBehind) {
+      ++passing;
+      continue;
+    }
+    const Eigen::Vector2d here = origin + range * direction;
+    if (passing > 4 && (here - before).norm() > 0.45) ++openings;
+    passing = 0;
+    before = here;
+  }
+  return openings;
+}
+
 /// One scenario's figures.
 struct Score {
   std::size_t wanted = 0, found = 0, excess = 0, fragmented = 0, floor_found = 0;
   LineErrors errors, floor;
   std::vector<double> microseconds, conversion;
+  std::size_t bridged = 0;  ///< openings that a segment goes across
 
   /// Answers which spans were found by which segment (−1: none).
   std::vector<int> add(const View& view, const std::vector<geometry::LineSegment>& segments) {
@@ -80,6 +119,7 @@ struct Score {
     }
     for (std::size_t i = 0; i < view.spans.size(); ++i) count(view.spans[i], matched[i], segments);
     excess += static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+    for (const auto& segment : segments) bridged += openingsUnder(segment, view);
     return matched;
   }
 
@@ -96,6 +136,12 @@ struct Score {
     print(name + "false", static_cast<double>(excess), "segments");
     print(name + "fragmented", 100.0 * static_cast<double>(fragmented) / n, "%");
     printErrors(name, errors);
+    print(name + "nees", errors.meanNees(), "of_2");
+    print(name + "ends_within_2_sigma",
+          100.0 * static_cast<double>(errors.ends_within_2_sigma) /
+              static_cast<double>(errors.end_mm.size()),
+          "%");
+    print(name + "bridged", static_cast<double>(bridged), "openings");
     print(name + "rho_over_floor", median(errors.rho_mm) / median(floor.rho_mm), "1");
     print(name + "phi_over_floor", median(errors.phi_mrad) / median(floor.phi_mrad), "1");
     print(name + "us_median", median(microseconds), "us");
@@ -138,6 +184,7 @@ struct Score {
     ++found;
     const auto& segment = segments[static_cast<std::size_t>(match)];
     errors.add(segment.line, span.line, segment.ends, span.ends);
+    errors.addEnds(segment, span.ends);
     floor.add(span.floor, span.line, span.floor_ends, span.ends);
   }
 };

@@ -26,6 +26,7 @@ struct View {
   scan::Scan scan;
   std::vector<VisibleSpan> spans;
   std::vector<std::size_t> beams_on_disc;  ///< valid ones
+  std::vector<double> true_ranges;         ///< [m]
 };
 
 /// Settings of a sensor and its motion.
@@ -34,7 +35,18 @@ struct Sensor {
   double field_of_view = geometry::radians(270.0);
   double sigma = 0.01;
   double invalid_share = 0.0;  ///< of returns replaced by NaN, Inf or 0
-  double sweep_time = 0.0;     ///< [s], moving at 0.5 m/s and 1 rad/s
+  double sweep_time = 0.0;     ///< [s], moving at 0.5 m/s and `turn_rate`
+  double turn_rate = 1.0;      ///< [rad/s]
+  double sigma_per_metre = 0.0;
+  double step = 0.0;           ///< in which ranges are counted [m]; 0: none
+  double angular_sigma = 0.0;  ///< of each beam's direction [rad]
+  double outlier_share = 0.0;  ///< of returns replaced by anything up to 10 m
+
+  /// Variance along a beam that an ideal user of the scanner would state [m²].
+  double variance(double range) const {
+    const double growing = sigma_per_metre * range;
+    return sigma * sigma + growing * growing + step * step / 12.0;
+  }
 };
 
 /// A wall may be hidden for this long and is still one [m], as the extractor's gap limit.
@@ -52,6 +64,7 @@ class Viewer {
     for (int wall = 0; wall < count; ++wall) addSpans(wall, view);
     for (VisibleSpan& span : view.spans) joinFloorCorners(span, view.spans);
     countDiscBeams(view);
+    for (const Hit& hit : hits_) view.true_ranges.push_back(hit.range);
     return view;
   }
 
@@ -64,7 +77,7 @@ class Viewer {
   geometry::Pose2 motionAt(double beam) const {
     if (sensor_.sweep_time == 0.0) return {};
     return geometry::Pose2::exp(sensor_.sweep_time * beam / steps() *
-                                Eigen::Vector3d(0.5, 0.0, 1.0));
+                                Eigen::Vector3d(0.5, 0.0, sensor_.turn_rate));
   }
   Hit hitAt(double beam) const { return cast(world_, pose_ * motionAt(beam), angleAt(beam)); }
 
@@ -74,18 +87,36 @@ class Viewer {
                                                       sensor_.sweep_time / steps(), 0.02, 60.0);
     std::vector<double> ranges;
     std::vector<geometry::Pose2> motion;
-    std::normal_distribution<double> noise(0.0, sensor_.sigma);
+    std::vector<double> variances;
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (std::size_t i = 0; i < n; ++i) {
       hits_.push_back(hitAt(static_cast<double>(i)));
-      double range = hits_.back().range + noise(random);
+      double range = measure(i, random);
       if (share(random) < sensor_.invalid_share) range = invalidRange(share(random));
       ranges.push_back(range);
+      variances.push_back(sensor_.variance(hits_.back().range));
       if (sensor_.sweep_time > 0.0) motion.push_back(motionAt(static_cast<double>(i)));
     }
     scan = scan::Scan(geometry, 1, std::move(ranges));
     scan.setSensorMotion(std::move(motion));
-    scan.setRangeVariances(std::vector<double>(n, sensor_.sigma * sensor_.sigma));
+    scan.setRangeVariances(std::move(variances));
+    scan.angular_variance = sensor_.angular_sigma * sensor_.angular_sigma;
+  }
+  double measure(std::size_t beam, std::mt19937& random) const {
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    double range = hits_[beam].range;
+    if (sensor_.angular_sigma > 0.0) {
+      const double turned = sensor_.angular_sigma * normal(random);
+      range = cast(world_, pose_ * motionAt(static_cast<double>(beam)),
+                   angleAt(static_cast<double>(beam)) + turned)
+                  .range;
+    }
+    range += std::hypot(sensor_.sigma, sensor_.sigma_per_metre * range) * normal(random);
+    if (sensor_.outlier_share > 0.0 && share(random) < sensor_.outlier_share) {
+      range = 0.1 + 9.9 * share(random);
+    }
+    return sensor_.step > 0.0 ? sensor_.step * std::round(range / sensor_.step) : range;
   }
   static double invalidRange(double share) {
     if (share < 1.0 / 3.0) return std::numeric_limits<double>::quiet_NaN();

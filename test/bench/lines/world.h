@@ -20,6 +20,7 @@ struct Disc {
 struct PlaneWorld {
   std::vector<geometry::Segment> walls;
   std::vector<Disc> discs;
+  int panes = 0;  ///< of glass, which send nothing back: the last walls
 };
 
 /// A ray's nearest obstacle: walls count from 0, discs follow them, −1 is nothing.
@@ -59,6 +60,10 @@ inline Hit cast(const PlaneWorld& world, const geometry::Pose2& sensor, double a
     meetWall(wall, sensor.translation(), direction, what++, nearest);
   for (const Disc& disc : world.discs)
     meetDisc(disc, sensor.translation(), direction, what++, nearest);
+  const auto walls = static_cast<int>(world.walls.size());
+  if (nearest.what >= walls - world.panes && nearest.what < walls) {
+    nearest.range = std::numeric_limits<double>::infinity();
+  }
   return nearest;
 }
 
