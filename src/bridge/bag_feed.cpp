@@ -1,6 +1,7 @@
 #include "sightline/bridge/bag_feed.h"
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 
 #include <fmt/format.h>
@@ -18,7 +19,18 @@ namespace {
 bool isScan(const std::string& type) {
   namespace traits = ros::message_traits;
   return type == traits::datatype<sensor_msgs::LaserScan>() ||
+         type == traits::datatype<sensor_msgs::MultiEchoLaserScan>() ||
          type == traits::datatype<RangeScan>();
+}
+
+bool isBag(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(8, '\0');
+  return file.read(start.data(), 8) && start == "#ROSBAG ";
+}
+
+std::string reindexing(const std::string& path) {
+  return fmt::format("rosbag reindex '{}'", path);
 }
 
 // Topics that hold scans, as they stand in the bags.
@@ -55,18 +67,18 @@ BagFeed::BagFeed(const std::vector<std::string>& paths, const pipeline::Estimato
 }
 
 // rosbag does not say which file is at fault.
-template <class Call>
-void BagFeed::withPath(const std::string& path, const Call& call) const {
-  try {
-    call();
-  } catch (const ros::Exception& fault) {
-    throw config::Error(path, 0, "", fault.what());
-  }
-}
-
 void BagFeed::open(const std::string& path) {
   bags_.emplace_back();
-  withPath(path, [&] { bags_.back().open(path, rosbag::bagmode::Read); });
+  try {
+    bags_.back().open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw config::Error(path, 0, "", "it was not closed, and has no index: " + reindexing(path));
+  } catch (const ros::Exception& fault) {
+    // What is cut within its records is found by many names.
+    const bool is_cut = isBag(path);
+    throw config::Error(path, 0, "",
+                        is_cut ? "it is cut short: " + reindexing(path) : fault.what());
+  }
 }
 
 void BagFeed::addScanner(const std::string& topic) {
@@ -86,10 +98,29 @@ void BagFeed::addScanner(const std::string& topic) {
 }
 
 void BagFeed::read(const Visitor& visitor) {
-  withPath(paths_, [&] { readAll(visitor); });
+  try {
+    readAll(visitor);
+  } catch (const rosbag::BagException& fault) {
+    damage_ =
+        fmt::format("{} is damaged, and was read as far as it goes: {}", paths_, fault.what());
+  }
+  deliver(last_, /*at_end=*/true, visitor);
+}
+
+// What never changes holds before it was said, too.
+void BagFeed::takeStaticTransforms() {
+  const std::vector<std::string> topics{"tf_static", "/tf_static"};
+  for (const rosbag::Bag& bag : bags_) {
+    rosbag::View view(bag, rosbag::TopicQuery(topics));
+    for (const rosbag::MessageInstance& instance : view) {
+      const auto transforms = instance.instantiate<tf2_msgs::TFMessage>();
+      if (transforms) transform_input_.take(*transforms, /*is_static=*/true, 0);
+    }
+  }
 }
 
 void BagFeed::readAll(const Visitor& visitor) {
+  takeStaticTransforms();
   std::vector<std::string> names{"tf", "tf_static"};
   for (const auto& [topic, scanner] : scanners_) names.push_back(topic);
   names.insert(names.end(), readings_.begin(), readings_.end());
@@ -100,12 +131,12 @@ void BagFeed::readAll(const Visitor& visitor) {
   const ros::Time begin = view.getBeginTime();
   const double length = std::max((view.getEndTime() - begin).toSec(), 1e-9);
   for (const rosbag::MessageInstance& instance : view) {
+    last_ = instance.getTime();
     visitor.message(instance);
     take(instance);
     deliver(instance.getTime(), /*at_end=*/false, visitor);
     visitor.progress((instance.getTime() - begin).toSec() / length);
   }
-  deliver(view.getEndTime(), /*at_end=*/true, visitor);
 }
 
 void BagFeed::take(const rosbag::MessageInstance& instance) {
@@ -113,17 +144,19 @@ void BagFeed::take(const rosbag::MessageInstance& instance) {
   const auto scanner = scanners_.find(topic);
   if (scanner != scanners_.end()) return takeScan(scanner->second, instance);
   if (const auto transforms = instance.instantiate<tf2_msgs::TFMessage>()) {
-    for (auto& transform : transforms->transforms) {
-      transform.header.frame_id = withoutSlash(transform.header.frame_id);
-      transform.child_frame_id = withoutSlash(transform.child_frame_id);
-      buffer_.setTransform(transform, "bag", topic == "tf_static");
-    }
-    return;
+    return takeTransforms(*transforms, topic, nanoseconds(instance.getTime()));
   }
   try {
     takeReading(instance);
   } catch (const BadMessage& fault) {
     ++refused_[topic + ": " + fault.what()];
+  }
+}
+
+void BagFeed::takeTransforms(const tf2_msgs::TFMessage& message, const std::string& topic,
+                             std::int64_t now) {
+  for (const std::string& fault : transform_input_.take(message, topic == "tf_static", now)) {
+    ++refused_[topic + ": " + fault];
   }
 }
 
@@ -134,6 +167,8 @@ void BagFeed::takeScan(std::size_t scanner, const rosbag::MessageInstance& insta
   try {
     if (const auto laser = instance.instantiate<sensor_msgs::LaserScan>()) {
       input_.take(scanner, *laser, now);
+    } else if (const auto echoes = instance.instantiate<sensor_msgs::MultiEchoLaserScan>()) {
+      input_.take(scanner, *echoes, now);
     } else if (const auto range_scan = instance.instantiate<RangeScan>()) {
       input_.take(scanner, *range_scan, now);
     }
@@ -143,17 +178,20 @@ void BagFeed::takeScan(std::size_t scanner, const rosbag::MessageInstance& insta
 }
 
 void BagFeed::takeReading(const rosbag::MessageInstance& instance) {
+  const std::int64_t now = nanoseconds(instance.getTime());
   if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
-    input_.take(*odometry);
+    input_.take(*odometry, now);
   } else if (const auto imu = instance.instantiate<sensor_msgs::Imu>()) {
-    input_.take(*imu);
+    input_.take(*imu, now);
   }
 }
 
 void BagFeed::deliver(const ros::Time& now, bool at_end, const Visitor& visitor) {
   const auto next = [&] { return at_end ? feed_.flush() : feed_.next(nanoseconds(now)); };
   while (auto result = next()) {
-    if (result->located) visitor.scan(std::move(*result->located), now);
+    if (!result->located) continue;
+    if (result->located->clock_restarted) ++restarts_;
+    visitor.scan(std::move(*result->located), now);
   }
 }
 
@@ -167,6 +205,22 @@ std::size_t BagFeed::withoutMotion() const {
   std::size_t sum = 0;
   for (std::size_t i = 0; i < feed_.scanners(); ++i) sum += feed_.counts(i).without_motion;
   return sum;
+}
+
+std::size_t BagFeed::breaks() const {
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < feed_.scanners(); ++i) sum += feed_.counts(i).odometry_broke;
+  return sum;
+}
+
+std::vector<std::string> BagFeed::mended() const {
+  std::vector<std::string> texts;
+  for (const auto& [topic, scanner] : scanners_) {
+    for (const auto& [field, text] : input_.mended(scanner)) {
+      texts.push_back(fmt::format("/{}: {}", topic, text));
+    }
+  }
+  return texts;
 }
 
 std::map<std::string, std::size_t> BagFeed::dropped() const {

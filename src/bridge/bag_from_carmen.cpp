@@ -12,6 +12,7 @@
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
 #include "sightline/logs/carmen_odometry.h"
+#include "sightline/logs/carmen_stamps.h"
 
 namespace sightline::bridge {
 
@@ -35,10 +36,11 @@ float rosRange(float reading, double range_max) {
   return reading > 0.0F ? reading : std::numeric_limits<float>::quiet_NaN();
 }
 
-sensor_msgs::LaserScan scanOf(const logs::CarmenLaser& laser, double front_laser_max) {
+sensor_msgs::LaserScan scanOf(const logs::CarmenLaser& laser, std::int64_t stamp,
+                              double front_laser_max) {
   const double range_max = laser.range_max.value_or(front_laser_max);
   sensor_msgs::LaserScan scan;
-  scan.header.stamp = timeOf(laser.stamp);
+  scan.header.stamp = timeOf(stamp);
   scan.header.frame_id = kLaserFrame;
   scan.angle_min = static_cast<float>(laser.angle_min);
   scan.angle_increment = static_cast<float>(laser.angle_increment);
@@ -74,8 +76,9 @@ class CarmenBag {
     return odometry.stamp + delay_;
   }
 
-  void write(const logs::CarmenLaser& laser) {
-    bag_.write("/scan", timeOf(laser.stamp), scanOf(laser, front_laser_max_));
+  void write(const logs::CarmenLaser& laser, std::int64_t stamp) {
+    bag_.write("/scan", timeOf(stamp), scanOf(laser, stamp, front_laser_max_));
+    stamps_.push_back({stamp, laser.stamp});
   }
 
   void write(const logs::CarmenOdometry& odometry) {
@@ -88,13 +91,18 @@ class CarmenBag {
     bag_.write("/odom", stamp, odometryMessage(odometry, stamp));
   }
 
-  void close() { bag_.close(); }
+  void close() {
+    const std::string path = bag_.getFileName();
+    bag_.close();
+    logs::writeStamps(path + ".stamps", stamps_);
+  }
 
  private:
   rosbag::Bag bag_;
   std::int64_t delay_;
   geometry::Pose2 T_base_laser_;
   double front_laser_max_;
+  std::vector<logs::StampPair> stamps_;
 };
 
 std::vector<logs::CarmenOdometry> preparedOdometry(const logs::CarmenLog& log,
@@ -127,14 +135,15 @@ CarmenBagContents writeCarmenBag(const logs::CarmenLog& log, const CarmenBagOpti
   }
   const auto odometry = preparedOdometry(log, options);
   CarmenBag bag(path, options, frontLaserMax(log));
+  const std::vector<std::int64_t> stamps = logs::risingStamps(log);
   auto next = odometry.begin();
-  for (const logs::CarmenLaser& laser : log.scans) {
-    for (; next != odometry.end() && bag.stampOf(*next) <= laser.stamp; ++next) bag.write(*next);
-    bag.write(laser);
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    for (; next != odometry.end() && bag.stampOf(*next) <= stamps[i]; ++next) bag.write(*next);
+    bag.write(log.scans[i], stamps[i]);
   }
   for (; next != odometry.end(); ++next) bag.write(*next);
   bag.close();
-  return {log.scans.size(), odometry.size()};
+  return {log.scans.size(), odometry.size(), logs::countNotRising(log)};
 }
 
 }  // namespace sightline::bridge

@@ -21,6 +21,11 @@ void FeedInput::take(std::size_t scanner, const sensor_msgs::LaserScan& message,
   }
 }
 
+void FeedInput::take(std::size_t scanner, const sensor_msgs::MultiEchoLaserScan& message,
+                     std::int64_t now) {
+  take(scanner, firstEchoes(message), now);
+}
+
 void FeedInput::take(std::size_t scanner, const RangeScan& message, std::int64_t now) {
   try {
     feed_.add(scanner, scanners_[scanner].range_reader.read(message), now);
@@ -30,15 +35,20 @@ void FeedInput::take(std::size_t scanner, const RangeScan& message, std::int64_t
   }
 }
 
-void FeedInput::take(const nav_msgs::Odometry& message) {
-  const geometry::Pose2 pose = toPose2(message.pose.pose);
-  if (message.header.stamp.isZero()) throw BadMessage("a stamp of zero");
-  if (!pose.isFinite()) throw BadMessage("a pose that is not finite");
-  feed_.addOdometry(nanoseconds(message.header.stamp), pose);
+void FeedInput::take(const nav_msgs::Odometry& message, std::int64_t now) {
+  const auto& position = message.pose.pose.position;
+  std::string fault =
+      faultOfPose({position.x, position.y, position.z}, message.pose.pose.orientation);
+  if (fault.empty()) {
+    fault = feed_.addOdometry(nanoseconds(message.header.stamp), toPose2(message.pose.pose), now);
+  }
+  if (!fault.empty()) throw BadMessage(fault);
 }
 
-void FeedInput::take(const sensor_msgs::Imu& message) {
-  feed_.addImu(readImu(message, R_base_imu(message.header.frame_id)));
+void FeedInput::take(const sensor_msgs::Imu& message, std::int64_t now) {
+  const std::string fault =
+      feed_.addImu(readImu(message, R_base_imu(message.header.frame_id)), now);
+  if (!fault.empty()) throw BadMessage(fault);
 }
 
 // A sensor that no transform leads to is taken to sit straight on the base.

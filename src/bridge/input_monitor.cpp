@@ -4,21 +4,33 @@
 
 namespace sightline::bridge {
 
-InputMonitor::InputMonitor(std::string topic, diagnostic_updater::Updater& updater)
-    : topic_(std::move(topic)) {
+namespace {
+
+// Silence that is told of an input that has been coming.
+constexpr std::chrono::seconds kSilence{5};
+
+}  // namespace
+
+InputMonitor::InputMonitor(std::string topic, diagnostic_updater::Updater& updater, Flow flow)
+    : topic_(std::move(topic)), flow_(flow) {
   updater.add("input " + topic_, this, &InputMonitor::report);
+}
+
+void InputMonitor::accept() {
+  ++accepted_;
+  last_message_ = std::chrono::steady_clock::now();
 }
 
 void InputMonitor::drop(const std::string& reason) {
   count(reason);
-  ROS_WARN_THROTTLE(10.0, "%s: message dropped: %s (%zu so far)", topic_.c_str(), reason.c_str(),
-                    dropped_);
+  if (!drops_.isDue()) return;
+  ROS_WARN("%s: message dropped: %s (%zu so far)", topic_.c_str(), reason.c_str(), dropped_);
 }
 
 void InputMonitor::skip(const std::string& reason) {
   count(reason);
-  ROS_INFO_THROTTLE(10.0, "%s: message left out: %s (%zu so far)", topic_.c_str(), reason.c_str(),
-                    dropped_);
+  if (!drops_.isDue()) return;
+  ROS_INFO("%s: message left out: %s (%zu so far)", topic_.c_str(), reason.c_str(), dropped_);
 }
 
 void InputMonitor::count(const std::string& reason) {
@@ -26,18 +38,34 @@ void InputMonitor::count(const std::string& reason) {
   last_reason_ = reason;
 }
 
+void InputMonitor::note(const std::string& key, const std::string& text) {
+  if (notes_.try_emplace(key, text).second) ROS_WARN("%s: %s", topic_.c_str(), text.c_str());
+}
+
+void InputMonitor::warn(const std::string& text) {
+  ++warnings_[text];
+  if (warned_.isDue()) ROS_WARN("%s: %s", topic_.c_str(), text.c_str());
+}
+
 void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const bool is_silent =
+      flow_ == Flow::kSteady && std::chrono::steady_clock::now() - last_message_ > kSilence;
   if (dropped_ > dropped_before_) {
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "dropped: " + last_reason_);
+    status.summary(DiagnosticStatus::WARN, "dropped: " + last_reason_);
   } else if (accepted_ == 0) {
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "nothing received yet");
+    status.summary(DiagnosticStatus::WARN, "nothing received yet");
+  } else if (is_silent) {
+    status.summary(DiagnosticStatus::WARN, "nothing received any more");
   } else {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "receiving");
+    status.summary(DiagnosticStatus::OK, "receiving");
   }
   dropped_before_ = dropped_;
   status.add("used", accepted_);
   status.add("dropped", dropped_);
   status.add("last reason", last_reason_);
+  for (const auto& [key, text] : notes_) status.add(key, text);
+  for (const auto& [text, number] : warnings_) status.add(text, number);
   if (!noise_) return;
   status.add("noise sigma [m]", noise_->sigma);
   status.add("noise sigma per metre", noise_->sigma_per_metre);

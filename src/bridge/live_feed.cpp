@@ -27,6 +27,8 @@ LiveFeed::LiveFeed(ros::NodeHandle node, const pipeline::InputConfig& config,
       consumer_(std::move(consumer)),
       feed_(config.feed, frames, needs, transforms_),
       input_(feed_, transforms_, frames.base) {
+  subscribeTransforms(node, "/tf", tf_);
+  subscribeTransforms(node, "/tf_static", tf_static_);
   const auto source = config.feed.odometry_source;
   const bool by_topic =
       source == pipeline::OdometrySource::kAutomatic || source == pipeline::OdometrySource::kTopic;
@@ -38,6 +40,9 @@ LiveFeed::LiveFeed(ros::NodeHandle node, const pipeline::InputConfig& config,
   }
   for (const auto& topic : config.laserTopics()) addScanner<sensor_msgs::LaserScan>(node, topic);
   for (const auto& topic : config.range_scans) addScanner<RangeScan>(node, topic);
+  for (const auto& topic : config.echo_scans) {
+    addScanner<sensor_msgs::MultiEchoLaserScan>(node, topic);
+  }
   timer_ = node.createSteadyTimer(kRound, [this](const ros::SteadyTimerEvent&) { deliver(); });
 }
 
@@ -46,7 +51,8 @@ void LiveFeed::addScanner(ros::NodeHandle& node, const std::string& topic) {
   const std::size_t scanner = input_.addScanner();
   topics_.push_back(topic);
   scanners_.push_back({});
-  scanners_.back().monitor = std::make_unique<InputMonitor>(node.resolveName(topic), updater_);
+  scanners_.back().monitor = std::make_unique<InputMonitor>(node.resolveName(topic), updater_,
+                                                            InputMonitor::Flow::kSteady);
   scanners_.back().subscriber = node.subscribe<Message>(
       topic, kScanQueue,
       [this, scanner](const typename Message::ConstPtr& message) { onScan(scanner, *message); },
@@ -61,7 +67,25 @@ void LiveFeed::subscribe(ros::NodeHandle& node, const std::string& topic, Input&
         if (!input.monitor) {
           input.monitor = std::make_unique<InputMonitor>(input.subscriber.getTopic(), updater_);
         }
-        input.monitor->use([&] { input_.take(*message); });
+        input.monitor->use([&] { input_.take(*message, steadyNow()); });
+        deliver();
+      },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+}
+
+// tf2's own listener would take what a robot broadcasts as it is, and keep what is from the future
+// of a clock that was set back.
+void LiveFeed::subscribeTransforms(ros::NodeHandle& node, const std::string& topic, Input& input) {
+  const bool is_static = topic == "/tf_static";
+  input.subscriber = node.subscribe<tf2_msgs::TFMessage>(
+      topic, kReadingQueue,
+      [this, is_static, topic, &input](const tf2_msgs::TFMessage::ConstPtr& message) {
+        const auto faults = transform_input_.take(*message, is_static, steadyNow());
+        for (const std::string& fault : faults) {
+          if (!input.monitor) input.monitor = std::make_unique<InputMonitor>(topic, updater_);
+          input.monitor->drop(fault);
+        }
+        if (faults.empty() && input.monitor) input.monitor->accept();
         deliver();
       },
       ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
@@ -74,6 +98,9 @@ void LiveFeed::onScan(std::size_t scanner, const Message& message) {
   } catch (const BadMessage& fault) {
     scanners_[scanner].monitor->drop(fault.what());
   }
+  for (const auto& [field, fault] : input_.mended(scanner)) {
+    scanners_[scanner].monitor->note(field, fault);
+  }
   deliver();
 }
 
@@ -85,6 +112,12 @@ void LiveFeed::deliver(pipeline::FeedResult& result) {
   InputMonitor& monitor = *scanners_[result.scanner].monitor;
   if (const auto* noise = feed_.learnedNoise(result.scanner)) monitor.show(*noise);
   if (!result.located) return monitor.drop(result.reason);
+  if (result.located->clock_restarted) {
+    monitor.warn("the clock was set: started again in the new time");
+  }
+  if (result.located->odometry_broke) {
+    monitor.warn("the odometry was reset or leaped: bridged by the scans");
+  }
   try {
     consumer_(std::move(*result.located));
     monitor.accept();

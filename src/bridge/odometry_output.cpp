@@ -22,8 +22,11 @@ std::string OdometryOutput::write(const pipeline::Estimates& estimates) {
   ++scans_;
   const auto& update = estimates.odometry;
   if (!update) {
-    return estimates.located.T_base_sensor ? "not newer than the scan before it"
-                                           : estimates.located.no_odometry;
+    const std::string reason = estimates.located.T_base_sensor ? "older than the scan before it"
+                                                               : estimates.located.no_odometry;
+    ++left_out_;
+    ++without_pose_[reason];
+    return reason;
   }
   ++states_[static_cast<std::size_t>(update->state)];
   if (estimates.located.T_odom_base) ++with_wheels_;

@@ -1,10 +1,12 @@
 #include "sightline/bridge/pose_conversion.h"
 
 #include <array>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "sightline/bridge/time.h"
-
-#include "sightline/bridge/time.h"
+#include "sightline/config/field_visitor.h"
 
 namespace sightline::bridge {
 
@@ -114,6 +116,28 @@ Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
   const auto& t = transform.translation;
   result.linear() = rotationOf(transform.rotation);
   result.translation() = Eigen::Vector3d(t.x, t.y, t.z);
+  return result;
+}
+
+std::string faultOfPose(const Eigen::Vector3d& position, const geometry_msgs::Quaternion& q) {
+  // What is further off than this was never a rotation.
+  constexpr double kRounding = 0.1;
+  if (!position.allFinite()) return "a position that is not finite";
+  if (position.cwiseAbs().maxCoeff() > config::kCoordinate.max) {
+    return fmt::format("a position of {:.3g} m", position.cwiseAbs().maxCoeff());
+  }
+  const double norm = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
+  if (std::abs(norm - 1.0) < kRounding) return "";
+  return fmt::format("an orientation of norm {:.3g}", norm);
+}
+
+geometry_msgs::Quaternion normalized(const geometry_msgs::Quaternion& q) {
+  const double norm = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
+  geometry_msgs::Quaternion result;
+  result.x = q.x / norm;
+  result.y = q.y / norm;
+  result.z = q.z / norm;
+  result.w = q.w / norm;
   return result;
 }
 

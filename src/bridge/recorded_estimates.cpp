@@ -45,6 +45,14 @@ void RecordedEstimates::close() {
   bag_.close();
 }
 
+std::vector<EstimatorCount> RecordedEstimates::counts() const {
+  std::vector<EstimatorCount> counts;
+  if (lines_) counts.push_back(lines_->counted());
+  if (rooms_) counts.push_back(rooms_->counted());
+  if (odometry_) counts.push_back(odometry_->counted());
+  return counts;
+}
+
 std::vector<std::string> RecordedEstimates::summary() const {
   std::vector<std::string> lines;
   const auto append = [&](const auto& output) {

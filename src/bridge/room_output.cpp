@@ -1,5 +1,7 @@
 #include "sightline/bridge/room_output.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "sightline/bridge/room_markers.h"
@@ -16,6 +18,10 @@ void RoomOutputConfig::visit(config::FieldVisitor& visitor) {
       {"s",
        {0.0, 10.0},
        "the broadcast is dated this much after the scan, so that it serves until the next one"});
+  visitor.number("transform_rate", transform_rate,
+                 {"Hz",
+                  {0.0, 1000.0},
+                  "rate at which map_frame to odom_frame is sent again between scans; 0: never"});
 }
 
 RoomOutput::RoomOutput(Output& output, const RoomOutputConfig& config,
@@ -58,15 +64,38 @@ void RoomOutput::writePose(const pipeline::Estimates& estimates) {
   status_ = toStatusMessage(update, map_, frames_.map);
   status_port_.write(status_);
   if (config_.publish_tf) {
-    tf2_msgs::TFMessage transforms;
-    transforms.transforms = {toMapOdom(update, frames_.map, frames_.odom)};
-    transforms.transforms[0].header.stamp += ros::Duration(config_.transform_tolerance);
-    transforms_.write(transforms);
+    auto T_map_odom = toMapOdom(update, frames_.map, frames_.odom);
+    T_map_odom.header.stamp += ros::Duration(config_.transform_tolerance);
+    writeTransform(T_map_odom);
   }
   if (markers_.is_wanted && markers_.is_wanted()) {
     markers_.write(roomMarkers(update, map_, estimates.located.scan,
                                *estimates.located.T_base_sensor, frames_.map));
   }
+}
+
+// One transform for each time: two scanners may have the same stamps, and tf takes the first alone.
+void RoomOutput::writeTransform(geometry_msgs::TransformStamped T_map_odom) {
+  const bool is_sent =
+      !T_map_odom_.header.frame_id.empty() && T_map_odom_.header.stamp == T_map_odom.header.stamp;
+  if (is_sent) return;
+  T_map_odom_ = std::move(T_map_odom);
+  tf2_msgs::TFMessage transforms;
+  transforms.transforms = {T_map_odom_};
+  transforms_.write(transforms);
+}
+
+void RoomOutput::resend(const ros::Time& now) {
+  const ros::Time stamp = now + ros::Duration(config_.transform_tolerance);
+  if (T_map_odom_.header.frame_id.empty() || stamp <= T_map_odom_.header.stamp) return;
+  auto T_map_odom = T_map_odom_;
+  T_map_odom.header.stamp = stamp;
+  writeTransform(std::move(T_map_odom));
+}
+
+void RoomOutput::renewMap() {
+  map_is_written_ = false;
+  writeMap();
 }
 
 // One status for one scan, also while there is no pose yet.

@@ -1,30 +1,25 @@
 #include "sightline/bridge/scan_conversion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
+#include "sightline/geometry/angle.h"
 
 namespace sightline::bridge {
 
 namespace {
 
-constexpr double kLongestSweep = 60.0;  // [s]
-
-void checkMessage(const sensor_msgs::LaserScan& message) {
-  if (message.header.stamp.isZero()) throw scan::InvalidScan("a stamp of zero");
-  const double sweep =
-      static_cast<double>(message.time_increment) * static_cast<double>(message.ranges.size());
-  if (std::abs(sweep) > kLongestSweep) {
-    throw scan::InvalidScan(fmt::format("a sweep of {:.4g} s", sweep));
-  }
-  if (!message.intensities.empty() && message.intensities.size() != message.ranges.size()) {
-    throw scan::InvalidScan(fmt::format("{} intensities for {} ranges", message.intensities.size(),
-                                        message.ranges.size()));
-  }
-}
+// Longest time that a mirror takes for a turn [s].
+constexpr double kLongestSweep = 5.0;
+// No planar scanner sees so far [m].
+constexpr double kFarthest = 1000.0;
+// A turn, and what the floats of a message may overshoot by [rad].
+constexpr double kLargestSpan = 2.0 * geometry::kPi + 1e-3;
 
 float rangeOf(const scan::Scan& scan, std::size_t beam) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -41,39 +36,113 @@ float rangeOf(const scan::Scan& scan, std::size_t beam) {
   return static_cast<float>(scan.ranges()[beam]);
 }
 
+bool isSame(float a, float b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
 }  // namespace
 
 bool ScanReader::hasGeometryOf(const sensor_msgs::LaserScan& message) const {
   return geometry_ && built_beams_ == message.ranges.size() &&
-         built_from_.angle_min == message.angle_min &&
-         built_from_.angle_increment == message.angle_increment &&
-         built_from_.range_min == message.range_min && built_from_.range_max == message.range_max;
+         isSame(built_from_.angle_min, message.angle_min) &&
+         isSame(built_from_.angle_max, message.angle_max) &&
+         isSame(built_from_.angle_increment, message.angle_increment) &&
+         isSame(built_from_.range_min, message.range_min) &&
+         isSame(built_from_.range_max, message.range_max);
 }
 
 void ScanReader::takeTimes(const sensor_msgs::LaserScan& message) {
-  if (built_from_.time_increment == message.time_increment) return;
-  geometry_ = geometry_->withTimeIncrement(message.time_increment);
+  if (isSame(built_from_.time_increment, message.time_increment)) return;
+  geometry_ = geometry_->withTimeIncrement(timeIncrementOf(message));
   built_from_.time_increment = message.time_increment;
 }
 
 void ScanReader::rebuildGeometry(const sensor_msgs::LaserScan& message) {
-  geometry_ =
-      scan::ScanGeometry::uniform(message.angle_min, message.angle_increment, message.ranges.size(),
-                                  message.time_increment, message.range_min, message.range_max);
+  const config::Range limits = limitsOf(message);
+  geometry_ = scan::ScanGeometry::uniform(message.angle_min, angleIncrementOf(message),
+                                          message.ranges.size(), timeIncrementOf(message),
+                                          limits.min, limits.max);
   built_from_ = message;
   built_from_.ranges.clear();
   built_from_.intensities.clear();
   built_beams_ = message.ranges.size();
 }
 
+// An increment of zero, of degrees or of nothing is replaced by what the first and the last angle
+// say, where these can be true.
+double ScanReader::angleIncrementOf(const sensor_msgs::LaserScan& message) {
+  const double increment = message.angle_increment;
+  const double steps = static_cast<double>(message.ranges.size()) - 1.0;
+  const double span = static_cast<double>(message.angle_max) - message.angle_min;
+  const auto isSpan = [](double angle) {
+    return std::abs(angle) > 0.0 && std::abs(angle) < kLargestSpan;
+  };
+  if (steps < 1.0 || isSpan(steps * increment) || !isSpan(span)) return increment;
+  mended_.try_emplace("angle_increment",
+                      fmt::format("an angle increment of {}: taken for {:.4g}, by angle_min and "
+                                  "angle_max",
+                                  increment, span / steps));
+  return span / steps;
+}
+
+config::Range ScanReader::limitsOf(const sensor_msgs::LaserScan& message) {
+  const double nearest = message.range_min;
+  const double farthest = std::min<double>(message.range_max, kFarthest);
+  if (nearest >= 0.0 && nearest < farthest) return {nearest, farthest};
+  mended_.try_emplace("range limits", fmt::format("range limits {} to {} m: taken for none",
+                                                  message.range_min, message.range_max));
+  return {0.0, kFarthest};
+}
+
+double ScanReader::timeIncrementOf(const sensor_msgs::LaserScan& message) {
+  const double increment = message.time_increment;
+  const double sweep = increment * static_cast<double>(message.ranges.size());
+  if (std::abs(sweep) < kLongestSweep) return increment;
+  mended_.try_emplace(
+      "time_increment",
+      fmt::format("time_increment {:.6g} would be a sweep of {:.4g} s: taken for one of unknown "
+                  "duration",
+                  increment, sweep));
+  return 0.0;
+}
+
+std::vector<double> ScanReader::intensitiesOf(const sensor_msgs::LaserScan& message) {
+  const std::size_t count = message.intensities.size();
+  if (count == message.ranges.size()) {
+    return {message.intensities.begin(), message.intensities.end()};
+  }
+  if (count > 0) {
+    mended_.try_emplace("intensities", fmt::format("{} intensities for {} ranges: taken for none",
+                                                   count, message.ranges.size()));
+  }
+  return {};
+}
+
 scan::Scan ScanReader::read(const sensor_msgs::LaserScan& message) {
-  checkMessage(message);
   if (!hasGeometryOf(message)) rebuildGeometry(message);
   takeTimes(message);
   scan::Scan scan(geometry_, nanoseconds(message.header.stamp),
-                  {message.ranges.begin(), message.ranges.end()},
-                  {message.intensities.begin(), message.intensities.end()});
-  scan.frame = message.header.frame_id;
+                  {message.ranges.begin(), message.ranges.end()}, intensitiesOf(message));
+  scan.frame = withoutSlash(message.header.frame_id);
+  return scan;
+}
+
+sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& message) {
+  constexpr float kNothing = std::numeric_limits<float>::infinity();
+  const auto first = [](const sensor_msgs::LaserEcho& echo, float none) {
+    return echo.echoes.empty() ? none : echo.echoes.front();
+  };
+  sensor_msgs::LaserScan scan;
+  scan.header = message.header;
+  scan.angle_min = message.angle_min;
+  scan.angle_max = message.angle_max;
+  scan.angle_increment = message.angle_increment;
+  scan.time_increment = message.time_increment;
+  scan.scan_time = message.scan_time;
+  scan.range_min = message.range_min;
+  scan.range_max = message.range_max;
+  for (const auto& echo : message.ranges) scan.ranges.push_back(first(echo, kNothing));
+  for (const auto& echo : message.intensities) scan.intensities.push_back(first(echo, 0.0F));
   return scan;
 }
 

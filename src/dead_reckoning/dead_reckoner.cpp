@@ -24,8 +24,6 @@ using geometry::UncertainPose2;
 struct ReckonerTuning {
   // Standard deviation below which no prior is believed: rounding of a log or a message [m, rad].
   double least_sigma = 1e-4;
-  // Time whose motion a window spans at most, however long was bridged [s].
-  double longest_search = 10.0;
   // A sweep is corrected anew where the motion found moves its last beam by this much [m, rad].
   double sweep_position = 0.003;
   double sweep_heading = 0.001;
@@ -67,30 +65,28 @@ Eigen::Matrix3d motionCovariance(const UncertainPose2& predicted, const MatchOut
 }  // namespace
 
 DeadReckoner::DeadReckoner(const DeadReckonerConfig& config)
-    : config_(config), matcher_(makeMatcher(config)) {}
+    : config_(config), habit_(config.carrier), matcher_(makeMatcher(config)) {}
 
-std::optional<DeadReckoningUpdate> DeadReckoner::update(const scan::Scan& scan,
-                                                        const Pose2& T_base_sensor,
-                                                        const std::optional<MotionPrior>& prior) {
-  const std::optional<Match> found = match(scan, T_base_sensor, prior);
+std::optional<DeadReckoningUpdate> DeadReckoner::update(
+    const scan::Scan& scan, const Pose2& T_base_sensor, const std::optional<MotionPrior>& prior,
+    const std::optional<scan::ElapsedTime>& elapsed) {
+  const std::optional<Match> found = match(scan, T_base_sensor, prior, elapsed);
   if (!found) return std::nullopt;
   return commit(*found);
 }
 
 std::optional<Match> DeadReckoner::match(const scan::Scan& scan, const Pose2& T_base_sensor,
-                                         const std::optional<MotionPrior>& prior) const {
-  if (stamp_ && scan.stamp <= *stamp_) return std::nullopt;
-  Match match;
-  match.stamp = scan.stamp;
-  match.revision = revision_;
-  match.is_first = !stamp_;
-  if (stamp_) match.elapsed = 1e-9 * static_cast<double>(scan.stamp - *stamp_);
-  match.begins_anew = match.is_first || match.elapsed > config_.max_gap;
-  match.prediction = predict(prior, match.elapsed);
-  const Eigen::Vector3d twist =
-      match.elapsed > 0.0 ? match.prediction.step.log() / match.elapsed : twist_;
-  match.surfaces = readSurfaces(scan, T_base_sensor, twist);
-  if (!match.begins_anew && matcher_->hasReference()) locate(scan, T_base_sensor, match);
+                                         const std::optional<MotionPrior>& prior,
+                                         const std::optional<scan::ElapsedTime>& elapsed) const {
+  Match match = begin(scan, elapsed);
+  if (!match.is_first && match.elapsed <= 0.0) return std::nullopt;
+  matchWithin(match.elapsed, habit_.expected(), scan, T_base_sensor, prior, match);
+  if (match.outcome.state == MatchState::kFailed && !match.is_first) {
+    Match wider = match;
+    const double longest = elapsed ? elapsed->longest : match.elapsed;
+    matchWithin(longest, config_.carrier, scan, T_base_sensor, prior, wider);
+    if (wider.outcome.state != MatchState::kFailed) match = std::move(wider);
+  }
   if (match.outcome.state != MatchState::kFailed) {
     match.step = geometry::between(T_odom_base_, match.outcome.T_odom_base);
   } else {
@@ -101,9 +97,35 @@ std::optional<Match> DeadReckoner::match(const scan::Scan& scan, const Pose2& T_
   return match;
 }
 
-StepPrediction DeadReckoner::predict(const std::optional<MotionPrior>& prior,
+Match DeadReckoner::begin(const scan::Scan& scan,
+                          const std::optional<scan::ElapsedTime>& elapsed) const {
+  Match match;
+  match.stamp = scan.stamp;
+  match.revision = revision_;
+  match.is_first = !stamp_;
+  if (stamp_ && elapsed) {
+    match.elapsed = elapsed->usual;
+    match.elapsed_sigma = elapsed->sigma;
+  } else if (stamp_) {
+    match.elapsed = 1e-9 * static_cast<double>(scan.stamp - *stamp_);
+  }
+  return match;
+}
+
+void DeadReckoner::matchWithin(double elapsed, const CarrierConfig& carrier, const scan::Scan& scan,
+                               const Pose2& T_base_sensor, const std::optional<MotionPrior>& prior,
+                               Match& match) const {
+  match.elapsed = elapsed;
+  match.prediction = predict(carrier, prior, elapsed);
+  const Eigen::Vector3d twist = elapsed > 0.0 ? match.prediction.step.log() / elapsed : twist_;
+  match.surfaces = readSurfaces(scan, T_base_sensor, twist);
+  if (!match.is_first && matcher_->hasReference()) locate(scan, T_base_sensor, match);
+}
+
+StepPrediction DeadReckoner::predict(const CarrierConfig& carrier,
+                                     const std::optional<MotionPrior>& prior,
                                      double elapsed) const {
-  StepPrediction prediction = predictStep(config_.carrier, twist_, elapsed);
+  StepPrediction prediction = predictStep(carrier, twist_, elapsed);
   if (prior) prediction = {prior->T_before_now, prior->covariance, Eigen::Matrix3d::Zero()};
   prediction.covariance.diagonal().array() += kReckoner.least_sigma * kReckoner.least_sigma;
   return prediction;
@@ -112,8 +134,8 @@ StepPrediction DeadReckoner::predict(const std::optional<MotionPrior>& prior,
 void DeadReckoner::locate(const scan::Scan& scan, const Pose2& T_base_sensor, Match& match) const {
   const UncertainPose2 predicted{T_odom_base_ * match.prediction.step,
                                  errors_.predicted(T_odom_base_, match.prediction)};
-  const SearchWindow window = windowOf(
-      config_.carrier, predicted, std::min(match.elapsed + bridged_, kReckoner.longest_search));
+  const SearchWindow window =
+      windowOf(config_.carrier, predicted, std::min(match.elapsed + bridged_, config_.max_gap));
   match.outcome = matcher_->match(match.surfaces, predicted, window);
   if (scan.duration() != 0.0 && scan.sensorMotion().empty() &&
       match.outcome.state != MatchState::kFailed) {
@@ -177,6 +199,10 @@ DeadReckoningUpdate DeadReckoner::commit(const Match& match) {
   learn(match);
   update.pose = {T_odom_base_, errors_.pose()};
   update.twist = {twist_, errors_.twist()};
+  if (match.elapsed > 0.0) {
+    const double ratio = match.elapsed_sigma / match.elapsed;
+    update.twist.covariance += ratio * ratio * twist_ * twist_.transpose();
+  }
   return update;
 }
 
@@ -192,6 +218,7 @@ UncertainPose2 DeadReckoner::advance(const Match& match) {
       errors_.advance(T_odom_base_, match.prediction, match.step, match.elapsed, measurement);
   T_odom_base_ = match.T_odom_base;
   const Eigen::Vector3d twist = match.step.log() / match.elapsed;
+  if (match.outcome.state != MatchState::kFailed) habit_.learn(twist_, twist, match.elapsed);
   acceleration_ = accelerationTo(twist, match.elapsed);
   twist_ = twist;
   moving_ = true;
@@ -199,7 +226,7 @@ UncertainPose2 DeadReckoner::advance(const Match& match) {
 }
 
 void DeadReckoner::learn(const Match& match) {
-  if (match.begins_anew) matcher_->clear();
+  if (match.is_first) matcher_->clear();
   const bool had_reference = matcher_->hasReference();
   const double share_new = matcher_->learn(match.surfaces, T_odom_base_, match.outcome);
   // The pose is certain against a reference that begins with it, however long the gap was.
@@ -215,6 +242,7 @@ void DeadReckoner::reset(const Pose2& T_odom_base) {
   matcher_->clear();
   T_odom_base_ = T_odom_base;
   errors_.reset();
+  habit_.reset();
   twist_.setZero();
   moving_ = false;
   acceleration_.setZero();

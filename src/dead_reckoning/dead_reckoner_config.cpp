@@ -78,7 +78,10 @@ void DeadReckonerConfig::visit(config::FieldVisitor& visitor) {
                  "how two places are compared: submap, or the thesis's own (saarinen algs 4, 5-7)");
   visitor.group("carrier", carrier);
   visitor.number("max_gap", max_gap,
-                 {"s", {0.01, 1e4}, "time without a scan after which the reference starts anew"});
+                 {"s",
+                  {0.01, 1e4},
+                  "time whose motion is sought at most, however long no scan came or none was "
+                  "matched"});
   visitor.group("submap", submap);
   visitor.group("pose_space", pose_space);
   visitor.group("histogram", histogram);

@@ -10,10 +10,11 @@ namespace {
 using geometry::Pose2;
 
 struct EvidenceTuning {
-  // Distance of a point from its counterpart's line up to which it is one, and at which it would
-  // cost as much as none [m].
+  // Distance of a point from its counterpart's line up to which it is one, at least [m] and in
+  // standard deviations of a beam, and where it would cost as much as none, over that.
   double inlier = 0.08;
-  double truncation = 0.2;
+  double inlier_sigmas = 3.0;
+  double truncation = 2.5;
   // Cost of a point without a counterpart where nobody could expect one, or where the reference has
   // a surface too rough to match with; and of a point of the reference that the scan looks through.
   // After a turn or a gap most points cost the first, so that right poses are refused.
@@ -29,6 +30,29 @@ constexpr EvidenceTuning kEvidence{};
 double costOf(Sight sight) {
   return sight == Sight::kFree ? 1.0 : kEvidence.unknown_cost;
 }
+
+// Sums over the points of a scan.
+struct EvidenceSums {
+  double inliers = 0.0;
+  double contradictions = 0.0;
+  double cost = 0.0;
+  double known = 0.0;
+  double known_cost = 0.0;
+
+  void addInlier(double share) {
+    inliers += 1.0;
+    known += 1.0;
+    cost += share;
+    known_cost += share;
+  }
+  void addOther(Sight sight) {
+    cost += costOf(sight);
+    if (sight == Sight::kFree) contradictions += 1.0;
+    if (sight != Sight::kFree && sight != Sight::kSurface) return;
+    known += 1.0;
+    known_cost += costOf(sight);
+  }
+};
 
 // Points of the newest keyframe where the scan sees free space.
 double lookedThrough(const Pose2& T_odom_base, const RangeProfile& profile, const Submap& submap) {
@@ -47,24 +71,24 @@ double lookedThrough(const Pose2& T_odom_base, const RangeProfile& profile, cons
 
 Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeProfile& profile,
                const Submap& submap) {
-  Evidence sum{0.0, 0.0, 0.0};
+  EvidenceSums sum;
+  const double inlier = std::max(kEvidence.inlier, kEvidence.inlier_sigmas * surfaces.sigma);
+  const double truncation = kEvidence.truncation * inlier;
   const Eigen::Matrix2d rotation = match.T_odom_base.rotation();
   for (std::size_t i = 0; i < surfaces.points.size(); ++i) {
     const double distance = match.distances[i];
-    if (std::abs(distance) < kEvidence.inlier) {
-      sum.inliers += 1.0;
-      sum.cost += distance * distance / (kEvidence.truncation * kEvidence.truncation);
+    if (std::abs(distance) < inlier) {
+      sum.addInlier(distance * distance / (truncation * truncation));
       continue;
     }
-    const Sight sight =
-        submap.sightOf(rotation * surfaces.points[i].position + match.T_odom_base.translation());
-    sum.cost += costOf(sight);
-    if (sight == Sight::kFree) sum.contradictions += 1.0;
+    sum.addOther(
+        submap.sightOf(rotation * surfaces.points[i].position + match.T_odom_base.translation()));
   }
   const double through = lookedThrough(match.T_odom_base, profile, submap);
   const double count = static_cast<double>(std::max<std::size_t>(1, surfaces.points.size()));
-  return {sum.inliers / count, (sum.contradictions + through) / count,
-          (sum.cost + kEvidence.looked_through_cost * through) / count};
+  const double spent = kEvidence.looked_through_cost * through;
+  return {sum.inliers / count, (sum.contradictions + through) / count, (sum.cost + spent) / count,
+          sum.known / count, (sum.known_cost + spent) / std::max(1.0, sum.known)};
 }
 
 ResidualStatistics residualStatistics(const LineMatch& match) {

@@ -124,6 +124,7 @@ MatchOutcome HistogramMatcher::match(const SurfaceScan& surfaces,
   outcome.reference.is_held = best_cost < kHistogram.held_cost;
   outcome.state = MatchState::kMatched;
   outcome.inliers = 1.0 - best_cost;
+  outcome.cost = best_cost;
   outcome.information = surfaceInformation(surfaces, outcome.T_odom_base, kHistogram.point_sigma);
   outcome.motion_gradient =
       surfaceMotionGradient(surfaces, outcome.T_odom_base, kHistogram.point_sigma);

@@ -165,6 +165,7 @@ MatchOutcome PoseSpaceMatcher::match(const SurfaceScan& surfaces,
   const Correlation best = correlatePoses(surfaces.points, reference_, around, config_);
   outcome.evaluations = best.evaluations;
   outcome.inliers = static_cast<double>(best.count) / static_cast<double>(surfaces.points.size());
+  outcome.cost = 1.0 - outcome.inliers;
   if (outcome.inliers < kPoseSpace.fewest_counted) return outcome;
   Pose2 T_reference_base = best.T_reference_base;
   if (outcome.inliers > kPoseSpace.corrected_share) {

@@ -21,6 +21,10 @@ struct MatchTuning {
   // A local match that speaks as clearly as this is taken without looking further.
   double clear_cost = 0.2;
   double clear_contradictions = 0.1;
+  // In windows up to this ratio wider, it has to speak more clearly, and be within half of a narrow
+  // window from the prediction.
+  double moderate = 2.0;
+  double moderate_clearness = 0.5;
   // Least inliers of a match that the prediction leads to. Twice as many turn the Intel log by 28°
   // more in all and add .8 points of bad steps.
   double least_inliers = 0.25;
@@ -46,6 +50,14 @@ struct MatchTuning {
   double neighbour_position = 0.25;
   double neighbour_heading = 0.1;
   double cost_gap = 0.05;
+  // A pose is alone where the reference knows this share of the scan, what it knows is explained and
+  // not contradicted to these, and no other explanation costs little more.
+  double alone_known = 0.3;
+  double alone_cost = 0.45;
+  double alone_contradictions = 0.3;
+  double alone_gap = 0.1;
+  // Roughness of surfaces over the noise of a beam, as the surfaces were seen by such beams.
+  double roughness_per_sigma = 0.67;
   // Scans in a row, fitting a fresh reference alone, after which it becomes the reference.
   int trusted_after = 3;
 };
@@ -75,8 +87,19 @@ bool isNear(const Pose2& pose, const UncertainPose2& prior) {
   return off.dot(prior.covariance.inverse() * off) < kMatch.near_prior;
 }
 
+bool isWithin(const SearchWindow& window, double ratio) {
+  return window.position < ratio * kMatch.narrow_position &&
+         window.heading < ratio * kMatch.narrow_heading;
+}
+
 bool isNarrow(const SearchWindow& window) {
-  return window.position < kMatch.narrow_position && window.heading < kMatch.narrow_heading;
+  return isWithin(window, 1.0);
+}
+
+bool isAtTheMiddle(const Pose2& pose, const SearchWindow& window) {
+  const Eigen::Vector3d off = difference(pose, window.centre);
+  return off.head<2>().norm() < 0.5 * kMatch.narrow_position &&
+         std::abs(off.z()) < 0.5 * kMatch.narrow_heading;
 }
 
 }  // namespace
@@ -158,16 +181,23 @@ SubmapMatcher::Attempt SubmapMatcher::matchWith(const Reference& reference,
                                                 const Task& task) const {
   if (task.surfaces.points.size() < kMatch.fewest_points) return {{}, reference.rasters};
   std::vector<Hypothesis> hypotheses;
-  if (isNarrow(task.window)) {
+  if (isWithin(task.window, kMatch.moderate)) {
     hypotheses.push_back(refine(reference.submap, task, task.window.centre, kMatch.local_scale));
-    const Hypothesis& local = hypotheses.back();
-    if (local.evidence.cost < kMatch.clear_cost &&
-        local.evidence.contradictions < kMatch.clear_contradictions &&
-        isNear(local.match.T_odom_base, task.prior)) {
+    if (isBeyondDoubt(hypotheses.back(), task)) {
       return {conclude(hypotheses, task), reference.rasters};
     }
   }
   return matchWidely(reference, task, std::move(hypotheses));
+}
+
+// Tells whether nothing else needs to be looked for.
+bool SubmapMatcher::isBeyondDoubt(const Hypothesis& local, const Task& task) {
+  const bool is_narrow = isNarrow(task.window);
+  const double clearness = is_narrow ? 1.0 : kMatch.moderate_clearness;
+  const Pose2& pose = local.match.T_odom_base;
+  return local.evidence.cost < clearness * kMatch.clear_cost &&
+         local.evidence.contradictions < clearness * kMatch.clear_contradictions &&
+         isNear(pose, task.prior) && (is_narrow || isAtTheMiddle(pose, task.window));
 }
 
 SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, const Task& task,
@@ -215,7 +245,9 @@ SubmapMatcher::Rasters SubmapMatcher::rastersAbout(const Reference& reference,
 SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Task& task,
                                                 const Pose2& start, double scale) const {
   Hypothesis hypothesis;
-  hypothesis.match = lines_.match(task.surfaces, submap, start, task.prior, scale);
+  const double roughness = kMatch.roughness_per_sigma * task.surfaces.sigma;
+  const LineMatcher lines(std::max(config_.surface_sigma, roughness));
+  hypothesis.match = lines.match(task.surfaces, submap, start, task.prior, scale);
   hypothesis.evidence = weigh(hypothesis.match, task.surfaces, task.profile, submap);
   return hypothesis;
 }
@@ -229,6 +261,21 @@ bool SubmapMatcher::isClear(const Hypothesis& hypothesis, bool predicted) const 
     return true;
   }
   return evidence.cost < config_.max_cost && evidence.contradictions < config_.max_contradictions;
+}
+
+// After a turn or a gap most of a scan is unseen: the right pose is the one that alone explains what
+// the reference knows of it.
+bool SubmapMatcher::isAlone(const std::vector<Hypothesis>& hypotheses) {
+  const Hypothesis& best = hypotheses.front();
+  const Evidence& evidence = best.evidence;
+  if (evidence.known < kMatch.alone_known || evidence.known_cost > kMatch.alone_cost ||
+      evidence.contradictions > kMatch.alone_contradictions) {
+    return false;
+  }
+  return std::none_of(hypotheses.begin() + 1, hypotheses.end(), [&](const Hypothesis& other) {
+    return other.evidence.cost < evidence.cost + kMatch.alone_gap &&
+           isDistinct(other.match.T_odom_base, best.match.T_odom_base);
+  });
 }
 
 MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const Task& task) const {
@@ -246,8 +293,10 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const 
   outcome.motion_gradient = best.match.motion_gradient / (factor * factor);
   outcome.common = residuals.common();
   outcome.inliers = best.evidence.inliers;
+  outcome.cost = best.evidence.cost;
   const bool predicted = isNarrow(task.window) && isNear(outcome.T_odom_base, task.prior);
-  outcome.state = isClear(best, predicted) ? MatchState::kMatched : MatchState::kFailed;
+  const bool is_taken = isClear(best, predicted) || isAlone(hypotheses);
+  outcome.state = is_taken ? MatchState::kMatched : MatchState::kFailed;
   for (const Hypothesis& other : hypotheses) {
     if (other.evidence.cost > best.evidence.cost + kMatch.cost_gap) break;
     if (!isDistinct(other.match.T_odom_base, outcome.T_odom_base)) continue;

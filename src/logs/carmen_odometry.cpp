@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sightline/logs/carmen_stamps.h"
+
 namespace sightline::logs {
 
 namespace {
@@ -9,15 +11,28 @@ namespace {
 using geometry::Pose2;
 
 bool usesLines(const CarmenLog& log) {
-  return 2 * log.odometry.size() >= log.scans.size();
+  return 2 * log.odometry.size() >= log.scans.size() && hasUsableStamps(log);
 }
 
 std::vector<CarmenOdometry> columnsOf(const CarmenLog& log) {
   std::vector<CarmenOdometry> odometry;
   odometry.reserve(log.scans.size());
-  for (const CarmenLaser& laser : log.scans) {
-    odometry.push_back({laser.stamp, laser.robot, laser.velocity.value_or(CarmenVelocity{})});
+  const std::vector<std::int64_t> stamps = risingStamps(log);
+  for (std::size_t i = 0; i < log.scans.size(); ++i) {
+    const CarmenLaser& laser = log.scans[i];
+    odometry.push_back({stamps[i], laser.robot, laser.velocity.value_or(CarmenVelocity{})});
   }
+  return odometry;
+}
+
+std::vector<CarmenOdometry> linesOf(const CarmenLog& log) {
+  auto odometry = log.odometry;
+  odometry.erase(std::remove_if(odometry.begin(), odometry.end(),
+                                [](const CarmenOdometry& line) { return line.stamp <= 0; }),
+                 odometry.end());
+  std::stable_sort(
+      odometry.begin(), odometry.end(),
+      [](const CarmenOdometry& a, const CarmenOdometry& b) { return a.stamp < b.stamp; });
   return odometry;
 }
 
@@ -48,7 +63,7 @@ bool hasVelocity(const CarmenLog& log) {
 }
 
 std::vector<CarmenOdometry> odometryOf(const CarmenLog& log) {
-  auto odometry = usesLines(log) ? log.odometry : columnsOf(log);
+  auto odometry = usesLines(log) ? linesOf(log) : columnsOf(log);
   dropRepeated(odometry);
   if (!hasVelocity(log)) deriveVelocity(odometry);
   return odometry;

@@ -1,7 +1,6 @@
 #include <memory>
 #include <optional>
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
@@ -11,6 +10,7 @@
 #include "sightline/bridge/bag_feed.h"
 #include "sightline/bridge/line_output.h"
 #include "sightline/bridge/live_feed.h"
+#include "sightline/bridge/node_diagnostics.h"
 #include "sightline/pipeline/estimators_config.h"
 
 namespace sightline::nodes {
@@ -26,22 +26,19 @@ class EstimatorsNode {
                  const pipeline::EstimatorsConfig& config)
       : set_{true, config.rooms.has_value(), config.odometry.has_value()},
         estimators_(config, set_),
-        updater_(node, private_node),
+        diagnostics_(node, private_node),
         output_(node),
         lines_(output_, config.input),
         line_controls_(ros::NodeHandle(node, "line_extractor"), config.lines, estimators_) {
-    updater_.setHardwareID("none");
     broadcaster_.sendTransform(bridge::mountingTransforms(config).transforms);
     if (set_.rooms) addRooms(node, config);
     if (set_.odometry) {
       odometry_.emplace(output_, config.frames, /*publish_tf=*/false);
       odometry_controls_.emplace(ros::NodeHandle(node, "laser_odometry"), *estimators_.odometry(),
-                                 *odometry_, updater_);
+                                 *odometry_, diagnostics_.updater());
     }
-    feed_.emplace(node, config.input, config.frames, pipeline::FeedNeeds{}, updater_,
+    feed_.emplace(node, config.input, config.frames, pipeline::FeedNeeds{}, diagnostics_.updater(),
                   [this](pipeline::LocatedScan located) { take(std::move(located)); });
-    timer_ = node.createSteadyTimer(ros::WallDuration(0.5),
-                                    [this](const ros::SteadyTimerEvent&) { updater_.update(); });
   }
 
  private:
@@ -49,7 +46,8 @@ class EstimatorsNode {
     const auto& map = estimators_.rooms()->map();
     rooms_.emplace(output_, bridge::RoomOutputConfig{true, 0.1}, config.frames, *config.rooms, map);
     room_controls_.emplace(node, ros::NodeHandle(node, "room_tracker"), *config.rooms,
-                           config.frames.map, *estimators_.rooms(), *rooms_, updater_);
+                           config.frames.map, *estimators_.rooms(), *rooms_,
+                           diagnostics_.updater());
   }
 
   void take(pipeline::LocatedScan located) {
@@ -64,7 +62,7 @@ class EstimatorsNode {
 
   pipeline::EstimatorSet set_;
   pipeline::Estimators estimators_;
-  diagnostic_updater::Updater updater_;
+  bridge::NodeDiagnostics diagnostics_;
   bridge::Output output_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   bridge::LineOutput lines_;
@@ -74,7 +72,6 @@ class EstimatorsNode {
   std::optional<bridge::OdometryOutput> odometry_;
   std::optional<OdometryControls> odometry_controls_;
   std::optional<bridge::LiveFeed> feed_;
-  ros::SteadyTimer timer_;
 };
 
 }  // namespace

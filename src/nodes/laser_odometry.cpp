@@ -1,11 +1,11 @@
 #include <memory>
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include "nodes/laser_odometry_config.h"
 #include "nodes/odometry_controls.h"
 #include "sightline/bridge/live_feed.h"
+#include "sightline/bridge/node_diagnostics.h"
 #include "sightline/bridge/parameters.h"
 
 namespace sightline::nodes {
@@ -38,6 +38,7 @@ LaserOdometryNodeConfig readLaserOdometryConfig(const ros::NodeHandle& node,
                                                 const ros::NodeHandle& private_node) {
   auto config = bridge::readParameters<LaserOdometryNodeConfig>(private_node);
   config.topics.input.feed.odometry_source = sourceOf(config, node);
+  config.topics.frames = config.topics.frames.withoutSlashes();
   return config;
 }
 
@@ -46,16 +47,12 @@ class LaserOdometryNode {
   LaserOdometryNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : config_(readLaserOdometryConfig(node, private_node)),
         estimators_(estimatorsOf(config_), kOdometry),
-        updater_(node, private_node),
+        diagnostics_(node, private_node),
         output_(node),
         odometry_(output_, config_.topics.frames, config_.publish_tf),
-        controls_(private_node, *estimators_.odometry(), odometry_, updater_),
-        feed_(node, config_.topics.input, config_.topics.frames, {}, updater_,
-              [this](pipeline::LocatedScan located) { reckon(std::move(located)); }) {
-    updater_.setHardwareID("none");
-    timer_ = node.createSteadyTimer(ros::WallDuration(0.5),
-                                    [this](const ros::SteadyTimerEvent&) { updater_.update(); });
-  }
+        controls_(private_node, *estimators_.odometry(), odometry_, diagnostics_.updater()),
+        feed_(node, config_.topics.input, config_.topics.frames, {}, diagnostics_.updater(),
+              [this](pipeline::LocatedScan located) { reckon(std::move(located)); }) {}
 
  private:
   static constexpr pipeline::EstimatorSet kOdometry{false, false, true};
@@ -69,12 +66,11 @@ class LaserOdometryNode {
 
   LaserOdometryNodeConfig config_;
   pipeline::Estimators estimators_;
-  diagnostic_updater::Updater updater_;
+  bridge::NodeDiagnostics diagnostics_;
   bridge::Output output_;
   bridge::OdometryOutput odometry_;
   OdometryControls controls_;
   bridge::LiveFeed feed_;
-  ros::SteadyTimer timer_;
 };
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include <memory>
 #include <optional>
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include "nodes/line_controls.h"
 #include "nodes/line_extractor_config.h"
 #include "sightline/bridge/line_output.h"
 #include "sightline/bridge/live_feed.h"
+#include "sightline/bridge/node_diagnostics.h"
 #include "sightline/bridge/parameters.h"
 
 namespace sightline::nodes {
@@ -25,13 +25,15 @@ pipeline::EstimatorsConfig estimatorsOf(const LineExtractorNodeConfig& config) {
 LineExtractorNodeConfig readLineExtractorConfig(const ros::NodeHandle& private_node) {
   auto config = bridge::readParameters<LineExtractorNodeConfig>(private_node);
   if (!config.fixed_frame.empty()) config.topics.frames.odom = config.fixed_frame;
+  config.topics.frames = config.topics.frames.withoutSlashes();
   return config;
 }
 
 // Needs nothing without a fixed frame, so that no scan waits.
 pipeline::FeedNeeds needsOf(const LineExtractorNodeConfig& config) {
   const bool moves = !config.fixed_frame.empty();
-  return {moves || config.topics.input.leans, moves};
+  const bool is_masked = !config.topics.input.feed.body.empty();
+  return {moves || is_masked || config.topics.input.leans, moves};
 }
 
 class LineExtractorNode {
@@ -39,18 +41,15 @@ class LineExtractorNode {
   LineExtractorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : config_(readLineExtractorConfig(private_node)),
         estimators_(estimatorsOf(config_), kLines),
-        updater_(node, private_node),
+        diagnostics_(node, private_node),
         output_(node),
         lines_(output_, config_.topics.input, config_.markers),
         controls_(private_node, config_.lines, estimators_),
-        feed_(node, config_.topics.input, config_.topics.frames, needsOf(config_), updater_,
-              [this](pipeline::LocatedScan located) {
+        feed_(node, config_.topics.input, config_.topics.frames, needsOf(config_),
+              diagnostics_.updater(), [this](pipeline::LocatedScan located) {
                 lines_.write(estimators_.take(std::move(located)));
               }) {
-    updater_.setHardwareID("none");
-    if (!config_.fixed_frame.empty()) motion_.emplace(feed_, updater_);
-    timer_ = node.createSteadyTimer(ros::WallDuration(0.5),
-                                    [this](const ros::SteadyTimerEvent&) { updater_.update(); });
+    if (!config_.fixed_frame.empty()) motion_.emplace(feed_, diagnostics_.updater());
   }
 
  private:
@@ -58,13 +57,12 @@ class LineExtractorNode {
 
   LineExtractorNodeConfig config_;
   pipeline::Estimators estimators_;
-  diagnostic_updater::Updater updater_;
+  bridge::NodeDiagnostics diagnostics_;
   bridge::Output output_;
   bridge::LineOutput lines_;
   LineControls controls_;
   bridge::LiveFeed feed_;
   std::optional<MotionDiagnostics> motion_;
-  ros::SteadyTimer timer_;
 };
 
 }  // namespace

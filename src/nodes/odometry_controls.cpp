@@ -26,10 +26,10 @@ void OdometryControls::note(const pipeline::Estimates& estimates) {
   if (!is_mounting_known_) {
     ROS_WARN_ONCE("the scanner is taken for the base: %s", estimates.located.no_odometry.c_str());
   }
-  if (!last_.isFlagged()) return;
-  ROS_WARN_THROTTLE(10.0, "scan %.3f: match %s, %.0f %% of %zu beams found their counterpart",
-                    bridge::timeOf(last_.stamp).toSec(), bridge::nameOf(last_.state),
-                    100.0 * last_.inliers, last_.beams);
+  if (!last_.isFlagged() || !flagged_.isDue()) return;
+  ROS_WARN("scan %.3f: match %s, %.0f %% of %zu beams found their counterpart",
+           bridge::timeOf(last_.stamp).toSec(), bridge::nameOf(last_.state), 100.0 * last_.inliers,
+           last_.beams);
 }
 
 bool OdometryControls::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
 
+#include "sightline/bridge/log_throttle.h"
 #include "sightline/bridge/odometry_output.h"
 #include "sightline/pipeline/estimators.h"
 
@@ -29,6 +30,7 @@ class OdometryControls {
   dead_reckoning::DeadReckoningUpdate last_;
   bool is_mounting_known_ = false;
   std::size_t flagged_before_ = 0;  // at the last report
+  bridge::LogThrottle flagged_;
   ros::ServiceServer reset_server_;
 };
 

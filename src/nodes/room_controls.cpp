@@ -12,7 +12,7 @@ namespace sightline::nodes {
 
 RoomControls::RoomControls(ros::NodeHandle node, ros::NodeHandle private_node,
                            const pipeline::RoomsConfig& config, const std::string& map_frame,
-                           tracking::RoomTracker& tracker, const bridge::RoomOutput& output,
+                           tracking::RoomTracker& tracker, bridge::RoomOutput& output,
                            diagnostic_updater::Updater& updater)
     : config_(config),
       map_frame_(map_frame),
@@ -22,6 +22,8 @@ RoomControls::RoomControls(ros::NodeHandle node, ros::NodeHandle private_node,
   updater.add("tracking", this, &RoomControls::report);
   initial_pose_subscriber_ = node.subscribe("initialpose", 1, &RoomControls::onInitialPose, this);
   set_room_server_ = private_node.advertiseService("set_room", &RoomControls::onSetRoom, this);
+  load_rooms_server_ =
+      private_node.advertiseService("load_rooms", &RoomControls::onLoadRooms, this);
   inflate_server_ =
       private_node.advertiseService("inflate_uncertainty", &RoomControls::onInflate, this);
   reconfigure_.updateConfig(bridge::toReconfigure(config_.tracker));
@@ -44,6 +46,18 @@ void RoomControls::onInitialPose(const geometry_msgs::PoseWithCovarianceStamped&
 bool RoomControls::onSetRoom(SetRoom::Request& request, SetRoom::Response& response) {
   response.success = tracker_.setRoom(request.room);
   if (!response.success) response.message = "no room is called '" + request.room + "'";
+  return true;
+}
+
+bool RoomControls::onLoadRooms(LoadRooms::Request& request, LoadRooms::Response& response) {
+  try {
+    tracker_.replaceMap(world::RoomMap::readFile(request.path));
+    output_.renewMap();
+    response.success = true;
+    ROS_INFO("rooms of %s", request.path.c_str());
+  } catch (const config::Error& fault) {
+    response.message = fault.what();
+  }
   return true;
 }
 

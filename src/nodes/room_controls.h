@@ -8,6 +8,7 @@
 #include <ros/node_handle.h>
 
 #include "sightline/InflateUncertainty.h"
+#include "sightline/LoadRooms.h"
 #include "sightline/RoomTrackerConfig.h"
 #include "sightline/SetRoom.h"
 #include "sightline/bridge/room_output.h"
@@ -22,23 +23,25 @@ class RoomControls {
   /// All of them have to live as long.
   RoomControls(ros::NodeHandle node, ros::NodeHandle private_node,
                const pipeline::RoomsConfig& config, const std::string& map_frame,
-               tracking::RoomTracker& tracker, const bridge::RoomOutput& output,
+               tracking::RoomTracker& tracker, bridge::RoomOutput& output,
                diagnostic_updater::Updater& updater);
 
  private:
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   bool onSetRoom(SetRoom::Request& request, SetRoom::Response& response);
+  bool onLoadRooms(LoadRooms::Request& request, LoadRooms::Response& response);
   bool onInflate(InflateUncertainty::Request& request, InflateUncertainty::Response& response);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   pipeline::RoomsConfig config_;
   std::string map_frame_;
   tracking::RoomTracker& tracker_;
-  const bridge::RoomOutput& output_;
+  bridge::RoomOutput& output_;
   boost::recursive_mutex reconfigure_mutex_;
   dynamic_reconfigure::Server<RoomTrackerConfig> reconfigure_;
   ros::Subscriber initial_pose_subscriber_;
   ros::ServiceServer set_room_server_;
+  ros::ServiceServer load_rooms_server_;
   ros::ServiceServer inflate_server_;
 };
 

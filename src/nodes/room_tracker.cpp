@@ -1,11 +1,11 @@
 #include <memory>
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include "nodes/room_controls.h"
 #include "nodes/room_tracker_config.h"
 #include "sightline/bridge/live_feed.h"
+#include "sightline/bridge/node_diagnostics.h"
 #include "sightline/bridge/parameters.h"
 
 namespace sightline::nodes {
@@ -25,6 +25,7 @@ RoomTrackerNodeConfig readRoomTrackerConfig(const ros::NodeHandle& private_node)
   if (config.rooms.map.empty()) {
     throw config::Error(private_node.getNamespace(), 0, "map", "has to name a rooms file");
   }
+  config.topics.frames = config.topics.frames.withoutSlashes();
   return config;
 }
 
@@ -33,17 +34,19 @@ class RoomTrackerNode {
   RoomTrackerNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : config_(readRoomTrackerConfig(private_node)),
         estimators_(estimatorsOf(config_), kRooms),
-        updater_(node, private_node),
+        diagnostics_(node, private_node),
         output_(node),
         rooms_(output_, config_.output, config_.topics.frames, config_.rooms,
                estimators_.rooms()->map()),
         controls_(node, private_node, config_.rooms, config_.topics.frames.map,
-                  *estimators_.rooms(), rooms_, updater_),
-        feed_(node, config_.topics.input, config_.topics.frames, {}, updater_,
+                  *estimators_.rooms(), rooms_, diagnostics_.updater()),
+        feed_(node, config_.topics.input, config_.topics.frames, {}, diagnostics_.updater(),
               [this](pipeline::LocatedScan located) { track(std::move(located)); }) {
-    updater_.setHardwareID("none");
-    timer_ = node.createSteadyTimer(ros::WallDuration(0.5),
-                                    [this](const ros::SteadyTimerEvent&) { updater_.update(); });
+    const double rate = config_.output.transform_rate;
+    if (rate == 0.0) return;
+    resend_timer_ = node.createSteadyTimer(
+        ros::WallDuration(1.0 / rate),
+        [this](const ros::SteadyTimerEvent&) { rooms_.resend(ros::Time::now()); });
   }
 
  private:
@@ -59,12 +62,12 @@ class RoomTrackerNode {
 
   RoomTrackerNodeConfig config_;
   pipeline::Estimators estimators_;
-  diagnostic_updater::Updater updater_;
+  bridge::NodeDiagnostics diagnostics_;
   bridge::Output output_;
   bridge::RoomOutput rooms_;
   RoomControls controls_;
   bridge::LiveFeed feed_;
-  ros::SteadyTimer timer_;
+  ros::SteadyTimer resend_timer_;
 };
 
 }  // namespace

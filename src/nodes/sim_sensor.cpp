@@ -38,7 +38,7 @@ class SimSensorNode {
   tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   std::vector<std::unique_ptr<SimRobotTopics>> robots_;
   ros::WallTimer timer_;
-  ros::WallTimer diagnostics_timer_;
+  ros::SteadyTimer diagnostics_timer_;
   ros::WallTimer end_timer_;
 };
 
@@ -67,8 +67,8 @@ SimSensorNode::SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node)
   for (const SimMoverConfig& mover : setup_.movers) addMover(mover);
   timer_ = node_.createWallTimer(ros::WallDuration(1e-9 * Simulation::kStep),
                                  [this](const ros::WallTimerEvent&) { onTimer(); });
-  diagnostics_timer_ = node_.createWallTimer(
-      ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { updater_.update(); });
+  diagnostics_timer_ = node_.createSteadyTimer(
+      ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { updater_.force_update(); });
 }
 
 void SimSensorNode::addMover(const SimMoverConfig& mover) {

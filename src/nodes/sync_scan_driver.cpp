@@ -49,7 +49,7 @@ class SyncScanDriverNode {
   std::unique_ptr<bridge::DeviceDiagnostics> diagnostics_;
   std::unique_ptr<bridge::ActiveSensorTopics> topics_;
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> static_broadcaster_;
-  ros::WallTimer diagnostics_timer_;
+  ros::SteadyTimer diagnostics_timer_;
   std::thread worker_;
 };
 
@@ -95,8 +95,8 @@ SyncScanDriverNode::SyncScanDriverNode(ros::NodeHandle node, ros::NodeHandle pri
   if (config_.publish_tf) broadcastHead(joint);
   diagnostics_ = std::make_unique<bridge::DeviceDiagnostics>(
       config_.session, *session_, queue_, 1.0 / sensor.scan.scanPeriod(), updater_);
-  diagnostics_timer_ = node.createWallTimer(
-      ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { updater_.update(); });
+  diagnostics_timer_ = node.createSteadyTimer(
+      ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { updater_.force_update(); });
   worker_ = std::thread([this] { work(); });
 }
 

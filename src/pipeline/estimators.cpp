@@ -13,6 +13,16 @@ namespace {
 // Scans of others are not compared with what this scanner has seen.
 constexpr std::size_t kOdometryScanner = 0;
 
+// Uncertainty of the motion over a break in the odometry, or while the clock is set [m, rad].
+constexpr double kBridgedPosition = 0.1;
+constexpr double kBridgedHeading = 0.1;
+
+void flagBreak(tracking::TrackerUpdate& update) {
+  if (update.state == tracking::TrackerState::kTracking) {
+    update.state = tracking::TrackerState::kDegraded;
+  }
+}
+
 }  // namespace
 
 Estimators::Estimators(const EstimatorsConfig& config, const EstimatorSet& set)
@@ -37,7 +47,10 @@ void Estimators::configureLines(const LinesConfig& config) {
 }
 
 Estimates Estimators::take(LocatedScan located) {
-  if (located.clock_restarted) restart();
+  if (located.clock_restarted) {
+    rooms_restart_ = true;
+    if (odometry_) odometry_->restartClock();
+  }
   Estimates estimates;
   estimates.located = std::move(located);
   removeFloor(estimates.located);
@@ -48,13 +61,15 @@ Estimates Estimators::take(LocatedScan located) {
   return estimates;
 }
 
-void Estimators::restart() {
-  if (odometry_) odometry_->restartClock();
-  if (!rooms_) return;
-  if (config_.rooms->initial_pose) {
+// The odometry tells a clock that was set from a recording that is played again.
+void Estimators::restartRooms(const LocatedScan& located) {
+  rooms_restart_ = false;
+  const bool goes_on = T_odom_base_ && isSamePlace(*T_odom_base_, *located.T_odom_base);
+  if (config_.rooms->initial_pose && !goes_on) {
     rooms_->setPose(config_.rooms->start());
   } else {
     rooms_->restartClock();
+    rooms_->inflate(kBridgedPosition, kBridgedHeading);
   }
 }
 
@@ -115,7 +130,14 @@ void Estimators::extract(Estimates& estimates) {
 void Estimators::track(Estimates& estimates) {
   const LocatedScan& located = estimates.located;
   if (!located.T_odom_base || !located.T_base_sensor) return;
-  estimates.rooms = rooms_->update(located.scan, *located.T_odom_base, *located.T_base_sensor);
+  if (rooms_restart_) restartRooms(located);
+  T_odom_base_ = located.T_odom_base;
+  if (located.odometry_broke) rooms_->inflate(kBridgedPosition, kBridgedHeading);
+  const Pose2 T_path_base = located.T_path_base.value_or(*located.T_odom_base);
+  estimates.rooms = rooms_->update(located.scan, T_path_base, *located.T_base_sensor);
+  if (!estimates.rooms) return;
+  estimates.rooms->T_map_odom = estimates.rooms->pose.mean * located.T_odom_base->inverse();
+  if (located.odometry_broke) flagBreak(*estimates.rooms);
 }
 
 }  // namespace sightline::pipeline

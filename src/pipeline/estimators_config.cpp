@@ -31,12 +31,14 @@ geometry::UncertainPose2 RoomsConfig::start() const {
 }
 
 std::vector<std::string> InputConfig::laserTopics() const {
-  return scans.empty() && range_scans.empty() ? std::vector<std::string>{"scan"} : scans;
+  const bool none = scans.empty() && range_scans.empty() && echo_scans.empty();
+  return none ? std::vector<std::string>{"scan"} : scans;
 }
 
 std::vector<std::string> InputConfig::topics() const {
   std::vector<std::string> all = laserTopics();
   all.insert(all.end(), range_scans.begin(), range_scans.end());
+  all.insert(all.end(), echo_scans.begin(), echo_scans.end());
   return all;
 }
 
@@ -44,6 +46,8 @@ void InputConfig::visit(config::FieldVisitor& visitor) {
   visitor.texts("scans", scans, "topics of the scanners; by default scan");
   visitor.texts("range_scans", range_scans,
                 "topics of sensors that tell their variances and how their head turned");
+  visitor.texts("echo_scans", echo_scans,
+                "topics of scanners that report several echoes a beam, of which the first is used");
   visitor.text("odometry_topic", odometry_topic, "topic of the wheels' odometry");
   visitor.text("imu_topic", imu_topic, "topic of an inertial sensor");
   feed.visit(visitor);
@@ -80,6 +84,7 @@ EstimatorsConfig EstimatorsConfig::readFile(const std::string& path) {
     config::read(document, carried);
     config = carried;
   }
+  config.frames = config.frames.withoutSlashes();
   if (config.rooms && config.rooms->map.empty()) document.at("rooms").at("map");
   return config;
 }

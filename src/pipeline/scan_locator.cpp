@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "sightline/geometry/isometry.h"
-#include "sightline/motion/sensor_path.h"
-#include "sightline/motion/sweep_noise.h"
+#include "sightline/pipeline/stamp_watch.h"
 
 namespace sightline::pipeline {
 
@@ -33,10 +32,6 @@ double tiltOf(const Eigen::Isometry3d& T_base_sensor) {
   return std::acos(std::min(1.0, std::abs(T_base_sensor.linear()(2, 2))));
 }
 
-std::int64_t nanoseconds(double seconds) {
-  return std::llround(1e9 * seconds);
-}
-
 ScanLocator::Outcome dropped(std::string reason) {
   ScanLocator::Outcome outcome;
   outcome.reason = std::move(reason);
@@ -53,15 +48,25 @@ ScanLocator::Outcome waiting() {
 
 ScanLocator::ScanLocator(const FeedConfig& config, const Frames& frames, const FeedNeeds& needs,
                          const Transforms& transforms)
-    : config_(config), frames_(frames), needs_(needs), transforms_(transforms) {
+    : config_(config),
+      frames_(frames),
+      needs_(needs),
+      transforms_(transforms),
+      sweep_motion_(config),
+      bridge_(config.odometry_limits) {
+  checkSectors(config_.body);
   if (config_.odometry_source != OdometrySource::kAutomatic) source_ = config_.odometry_source;
 }
 
+// What comes late, and out of order, does not end the history.
 void ScanLocator::addOdometry(std::int64_t stamp, const Pose2& T_odom_base) {
-  odometry_.add(stamp, T_odom_base);
+  const bool is_late = !odometry_.empty() && stamp < odometry_.newest() &&
+                       odometry_.newest() - stamp < StampWatch::kSetBack;
+  if (!is_late) odometry_.add(stamp, T_odom_base);
 }
 
 void ScanLocator::restartClock(std::int64_t stamp) {
+  bridge_.restartClock();
   if (!odometry_.empty() && odometry_.newest() > stamp + kConstants.silence) odometry_.clear();
   const auto newest_imu = imu_.newest();
   if (newest_imu && *newest_imu > stamp + kConstants.silence) imu_ = ImuHistory();
@@ -83,7 +88,7 @@ ScanLocator::Outcome ScanLocator::locate(const ArrivedScan& arrived, const Patie
   outcome.located.emplace();
   place(arrived, T_base_carried, *outcome.located);
   if (odometry == Known::kYes) {
-    if (needs_.mounting) outcome.located->T_odom_base = T_odom_base(arrived.scan.stamp);
+    if (needs_.mounting) followWheels(*outcome.located);
     addMotion(arrived, 0, *outcome.located);
   } else if (const auto lag = lagOf(arrived); lag && odometry == Known::kNot) {
     addMotion(arrived, *lag, *outcome.located);
@@ -204,9 +209,25 @@ void ScanLocator::place(const ArrivedScan& arrived,
   located.motion_known = arrived.scan.duration() == 0.0;
   if (!T_base_carried) return;
   located.T_base_sensor = geometry::inPlane(*T_base_carried);
+  maskBody(arrived, located);
   if (!arrived.head) return;
   const auto head = located.upside_down ? motion::mirrored(*arrived.head) : *arrived.head;
   located.T_base_sensor = *located.T_base_sensor * head.T_mount_sensor(0);
+}
+
+void ScanLocator::maskBody(const ArrivedScan& arrived, LocatedScan& located) const {
+  const auto sectors = config_.body.find(arrived.carriedFrame());
+  if (sectors == config_.body.end()) return;
+  pipeline::maskBody(sectors->second, *located.T_base_sensor, located.scan);
+}
+
+void ScanLocator::followWheels(LocatedScan& located) {
+  const std::int64_t stamp = located.scan.stamp;
+  located.T_odom_base = T_odom_base(stamp);
+  if (!located.T_odom_base) return;
+  const auto step = bridge_.follow(stamp, [this](std::int64_t time) { return T_odom_base(time); });
+  located.T_path_base = step.T_path_base;
+  located.odometry_broke = step.is_broken;
 }
 
 // Lag of odometry that does not reach the end of the sweep, and yet tells how the sensor has been
@@ -220,49 +241,21 @@ std::optional<std::int64_t> ScanLocator::lagOf(const ArrivedScan& arrived) const
   return lag;
 }
 
-// The motion of so long ago stands for that of the sweep.
 void ScanLocator::addMotion(const ArrivedScan& arrived, std::int64_t lag,
                             LocatedScan& located) const {
-  const std::int64_t stamp = arrived.scan.stamp - lag;
-  const auto path = [&](double after) -> std::optional<Pose2> {
-    const auto pose = T_odom_carried(arrived.carriedFrame(), stamp + nanoseconds(after));
+  const auto carried = [&](std::int64_t stamp) -> std::optional<Pose2> {
+    const auto pose = T_odom_carried(arrived.carriedFrame(), stamp);
     if (!pose) return std::nullopt;
     return geometry::inPlane(*pose);
   };
-  auto motion = motion::sweepAlong(path, *located.scan.geometry());
-  if (!motion) return;
-  located.motion_known = true;
-  if (!arrived.head) {
-    located.scan.setSensorMotion(std::move(*motion));
-  } else {
-    const auto head = located.upside_down ? motion::mirrored(*arrived.head) : *arrived.head;
-    located.scan.setSensorMotion(motion::headMotion(head, *motion));
-  }
-  addMotionNoise(arrived, lag, located);
+  const auto base = [this](std::int64_t stamp) { return T_odom_base(stamp); };
+  sweep_motion_.add(arrived, carried, base, lag, located);
 }
 
-void ScanLocator::addMotionNoise(const ArrivedScan& arrived, std::int64_t lag,
-                                 LocatedScan& located) const {
-  if (located.scan.sensorMotion().empty()) return;
-  const auto start = T_odom_base(arrived.scan.stamp - lag);
-  const auto end = T_odom_base(arrived.scan.end() - lag);
-  // The carried frame is taken for the base where the base is not known.
-  const Pose2 T_start_end =
-      start && end ? geometry::between(*start, *end) : located.scan.sensorMotion().back();
-  located.scan.motion_noise =
-      motion::sweepNoise(config_.sweep_noise, T_start_end, located.T_base_sensor.value_or(Pose2()),
-                         arrived.scan.duration());
-  addJitter(arrived, located);
-}
-
-// A head that turns is where its joint says, but for an error that each reading draws anew (pears
-// eq. 23); one that stands has the same error throughout.
-void ScanLocator::addJitter(const ArrivedScan& arrived, LocatedScan& located) const {
-  if (!arrived.head || config_.head_sigma == 0.0) return;
-  const auto head = located.upside_down ? motion::mirrored(*arrived.head) : *arrived.head;
-  if (motion::headMotion(head).empty()) return;
-  located.scan.motion_noise.jitter = config_.head_sigma * config_.head_sigma;
-  located.scan.motion_noise.jitter_axis = head.T_mount_sensor(0).inverse().translation();
+// Whether the odometry that there is ends long before a scan.
+bool ScanLocator::isOver(const ArrivedScan& arrived) const {
+  const auto newest = newestOdometry(arrived.carriedFrame());
+  return newest && *newest < arrived.scan.stamp - kConstants.silence;
 }
 
 void ScanLocator::explain(const ArrivedScan& arrived, Known odometry, LocatedScan& located) const {
@@ -274,7 +267,8 @@ void ScanLocator::explain(const ArrivedScan& arrived, Known odometry, LocatedSca
         fmt::format("no transform from {} to {} at its time", frames_.base, arrived.carriedFrame());
   } else if (!located.T_odom_base) {
     located.no_odometry =
-        fmt::format("no odometry from {} to {} at its time", frames_.odom, frames_.base);
+        fmt::format("{} from {} to {} {}", isOver(arrived) ? "the odometry" : "no odometry",
+                    frames_.odom, frames_.base, isOver(arrived) ? "ends before it" : "at its time");
   }
 }
 

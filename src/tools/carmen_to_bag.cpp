@@ -27,6 +27,13 @@ int convert(const std::string& in, const std::string& out,
   const logs::CarmenLog log = logs::readCarmenLog(in);
   printLosses(log);
   const auto contents = bridge::writeCarmenBag(log, options, out);
+  if (contents.not_rising > 0) {
+    std::fprintf(stderr,
+                 "%zu of %zu scans are stamped no later than the one before: the order of the log is "
+                 "kept, with rising stamps and the odometry of the scans' own lines; %s.stamps says "
+                 "what was logged\n",
+                 contents.not_rising, contents.scans, out.c_str());
+  }
   std::printf("%zu scans, %zu odometry poses\n", contents.scans, contents.odometry);
   return 0;
 }
@@ -39,7 +46,9 @@ int main(int argc, char** argv) {
   bridge::CarmenBagOptions options;
   tools::Program program("carmen_to_bag", "Turns a CARMEN log into a bag.");
   program.positional("IN.clf", in, "the log, plain or gzipped");
-  program.positional("OUT.bag", out, "the bag, with scan, odom and tf");
+  program.positional("OUT.bag", out,
+                     "the bag, with scan, odom and tf; beside it OUT.bag.stamps, `bag-stamp "
+                     "logged-stamp` a scan");
   program.flag("--reverse-from-tv", options.reverse_from_tv,
                "turn odometry steps round where the logged velocity is negative");
   program.option("--odometry-delay", options.odometry_delay, "SECONDS",

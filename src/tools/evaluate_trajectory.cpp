@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "program/program.h"
+#include "sightline/logs/carmen_stamps.h"
 #include "sightline/logs/trajectory_error.h"
 
 namespace {
@@ -22,6 +23,7 @@ struct Comparison {
   std::optional<std::string> relations;  // either these
   std::optional<std::string> truth;      // or this
   std::array<double, 3> offset{};        // x, y, theta; m, rad
+  std::optional<std::string> stamps;     // what the log said, by carmen_to_bag
 };
 
 int evaluate(const Comparison& comparison) {
@@ -30,7 +32,10 @@ int evaluate(const Comparison& comparison) {
   }
   const auto [x, y, theta] = comparison.offset;
   const geometry::Pose2 T_body_measured(x, y, theta);
-  const logs::Trajectory trajectory = logs::readTrajectory(comparison.trajectory);
+  logs::Trajectory trajectory = logs::readTrajectory(comparison.trajectory);
+  if (comparison.stamps) {
+    trajectory = logs::atLoggedStamps(trajectory, logs::readStamps(*comparison.stamps));
+  }
   if (comparison.relations) {
     const auto relations = logs::readRelations(*comparison.relations);
     const auto errors = logs::compareWithRelations(trajectory, relations, T_body_measured);
@@ -54,5 +59,8 @@ int main(int argc, char** argv) {
   program.option("--truth", comparison.truth, "FILE.tum", "a trajectory in the same frame");
   program.option("--offset", comparison.offset, "X Y THETA",
                  "the frame the truth holds for, in the frame whose trajectory this is");
+  program.option("--stamps", comparison.stamps, "FILE",
+                 "`bag-stamp logged-stamp` a line, as carmen_to_bag writes it: the truth is looked "
+                 "up by the logged ones");
   return program.run(argc, argv, [&] { return evaluate(comparison); });
 }

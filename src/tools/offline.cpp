@@ -101,21 +101,52 @@ void run(bridge::BagFeed& feed, bridge::RecordedEstimates& estimates) {
   estimates.close();
 }
 
-void printSummary(const bridge::RecordedEstimates& estimates, const bridge::BagFeed& feed,
-                  double seconds) {
+void print(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) std::printf("%s\n", line.c_str());
+}
+
+void printInput(const bridge::BagFeed& feed) {
   for (const auto& [reason, count] : feed.dropped()) {
     std::printf("%zu of %zu scans dropped: %s\n", count, feed.scans(), reason.c_str());
   }
   for (const auto& [reason, count] : feed.refused()) {
     std::printf("%zu messages dropped: %s\n", count, reason.c_str());
   }
+  print(feed.mended());
+  if (feed.breaks() > 0) {
+    std::printf("the odometry broke %zu times: bridged by the scans\n", feed.breaks());
+  }
+  if (feed.restarts() > 0) {
+    std::printf("the clock was set %zu times: started again\n", feed.restarts());
+  }
   if (feed.withoutMotion() > 0) {
     std::printf("%zu of %zu scans without known motion within the sweep\n", feed.withoutMotion(),
                 feed.scans());
   }
-  for (const std::string& line : estimates.summary()) std::printf("%s\n", line.c_str());
+}
+
+// The exit status. The last lines tell of estimators that fall short, and of a damaged bag.
+int judge(const bridge::RecordedEstimates& estimates, const bridge::BagFeed& feed) {
+  constexpr int kDamaged = 1;
+  constexpr int kFallsShort = 3;
+  int status = 0;
+  for (const bridge::EstimatorCount& count : estimates.counts()) {
+    if (!bridge::fallsShort(count, feed.scans())) continue;
+    print(bridge::explainShortfall(count, feed.scans(), feed.dropped()));
+    status = kFallsShort;
+  }
+  if (feed.damage().empty()) return status;
+  std::fprintf(stderr, "%s\n", feed.damage().c_str());
+  return kDamaged;
+}
+
+int report(const bridge::RecordedEstimates& estimates, const bridge::BagFeed& feed,
+           double seconds) {
+  printInput(feed);
+  print(estimates.summary());
   std::printf("%.1f s of scans in %.2f s: %.0f times real time\n", feed.duration(), seconds,
               feed.duration() / seconds);
+  return judge(estimates, feed);
 }
 
 int runOffline(const Job& job) {
@@ -127,8 +158,7 @@ int runOffline(const Job& job) {
   prepareOut(job);
   bridge::RecordedEstimates estimates(config, set, job.out);
   run(feed, estimates);
-  printSummary(estimates, feed, std::chrono::duration<double>(Clock::now() - start).count());
-  return 0;
+  return report(estimates, feed, std::chrono::duration<double>(Clock::now() - start).count());
 }
 
 }  // namespace

@@ -63,6 +63,12 @@ bool RoomTracker::setRoom(const std::string& name) {
   return true;
 }
 
+void RoomTracker::replaceMap(world::RoomMap map) {
+  context_.map = std::move(map);
+  auto before = method_;
+  ifStarted(before, [&](auto& tracker) { setPose(tracker.pose()); });
+}
+
 void RoomTracker::restartClock() {
   ifStarted(method_, [](auto& tracker) { tracker.memory().restartClock(); });
 }

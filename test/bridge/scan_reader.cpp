@@ -70,6 +70,7 @@ TEST(ScanReader, NamesTheFaultOfAScanThatCannotBeUsed) {
   scan.ranges.clear();
   EXPECT_EQ(faultOf(scan), "no beams");
   scan = message();
+  scan.angle_max = scan.angle_min;
   scan.angle_increment = 0.0F;
   EXPECT_EQ(faultOf(scan), "an angle increment of 0");
   scan.angle_increment = kNan;
@@ -78,23 +79,43 @@ TEST(ScanReader, NamesTheFaultOfAScanThatCannotBeUsed) {
   scan.angle_min = kNan;
   EXPECT_EQ(faultOf(scan), "an angle that is not finite");
   scan = message();
+  scan.angle_max = 400.0F;
   scan.angle_increment = 2.0F;
   EXPECT_THAT(faultOf(scan), testing::HasSubstr("more than a turn"));
-  scan = message();
+}
+
+TEST(ScanReader, DoesWithoutFieldsThatCannotBeTrue) {
+  const auto mendedIn = [](const sensor_msgs::LaserScan& scan) {
+    ScanReader reader;
+    EXPECT_EQ(reader.read(scan).beams(), 5U);
+    std::string text;
+    for (const auto& [field, fault] : reader.mended()) text += fault;
+    return text;
+  };
+  EXPECT_EQ(mendedIn(message()), "");
+  auto scan = message();
   scan.intensities = {1.0F, 2.0F};
-  EXPECT_EQ(faultOf(scan), "2 intensities for 5 ranges");
-  scan = message();
-  scan.header.stamp = ros::Time();
-  EXPECT_EQ(faultOf(scan), "a stamp of zero");
+  EXPECT_EQ(mendedIn(scan), "2 intensities for 5 ranges: taken for none");
   scan = message();
   scan.range_min = 20.0F;
-  EXPECT_THAT(faultOf(scan), testing::HasSubstr("range limits"));
+  EXPECT_THAT(mendedIn(scan), testing::HasSubstr("range limits 20 to"));
   scan = message();
   scan.range_max = kNan;
-  EXPECT_THAT(faultOf(scan), testing::HasSubstr("range limits"));
+  EXPECT_THAT(mendedIn(scan), testing::HasSubstr("range limits"));
+  for (const float increment : {153333.0F, kNan}) {
+    scan = message();
+    scan.time_increment = increment;
+    EXPECT_THAT(mendedIn(scan), testing::HasSubstr("of unknown duration"));
+    EXPECT_EQ(ScanReader().read(scan).duration(), 0.0);
+  }
   scan = message();
-  scan.time_increment = kNan;
-  EXPECT_EQ(faultOf(scan), "a time offset that is not finite");
+  scan.angle_max = scan.angle_min + 4.0F * scan.angle_increment;
+  const double increment = scan.angle_increment;
+  for (const float wrong : {0.0F, kNan, 57.3F}) {
+    scan.angle_increment = wrong;
+    EXPECT_THAT(mendedIn(scan), testing::HasSubstr("by angle_min and angle_max"));
+    EXPECT_NEAR(ScanReader().read(scan).geometry()->angleIncrement(), increment, 1e-6);
+  }
 }
 
 // The past is nothing to a reader: what a scan of another time means is for its user to say.
@@ -109,7 +130,7 @@ TEST(ScanReader, TakesScansInAnyOrderOfTime) {
 TEST(ScanReader, AGoodScanAfterABadOneIsRead) {
   ScanReader reader;
   auto bad = message();
-  bad.angle_increment = 0.0F;
+  bad.ranges.clear();
   EXPECT_THROW(reader.read(bad), scan::InvalidScan);
   EXPECT_EQ(reader.read(message()).beams(), 5U);
 }

@@ -56,14 +56,12 @@ TEST_F(RoomTrackerInput, BadScansAreDroppedWithTheirReasonAndGoodOnesStillUsed) 
   no_beams.intensities.clear();
   auto no_increment = look(now);
   no_increment.angle_increment = static_cast<float>(kNoNumber);
-  auto intensities = look(now);
-  intensities.intensities.resize(3);
+  no_increment.angle_max = no_increment.angle_min;
   const auto no_stamp = look(ros::Time());
   const auto long_ago = look(now - ros::Duration(0.5));
   const std::vector<std::pair<sensor_msgs::LaserScan, std::string>> bad{
       {no_beams, "no beams"},
       {no_increment, "an angle increment of nan"},
-      {intensities, "3 intensities for 361 ranges"},
       {no_stamp, "a stamp of zero"},
       {long_ago, "older than the scan before it"}};
   for (const auto& [message, reason] : bad) {

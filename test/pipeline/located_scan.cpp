@@ -134,7 +134,9 @@ TEST_F(ScanFeedTest, ARangeScanBringsItsHeadAlong) {
 TEST_F(ScanFeedTest, TakesTheTopicWhereTransformsKnowNoOdometry) {
   start();
   transforms_.mount("laser", Pose2(0.2, 0.0, 0.0));
-  for (int i = 0; i <= 8; ++i) feed_->addOdometry(at(10.0 + 0.05 * i), Pose2(0.05 * i, 0, 0));
+  for (int i = 0; i <= 8; ++i) {
+    feed_->addOdometry(at(10.0 + 0.05 * i), Pose2(0.05 * i, 0, 0), at(10.0 + 0.05 * i));
+  }
   feed_->add(0, sweep(10.1), at(10.3));
   const auto results = all(10.3);
   ASSERT_EQ(results.size(), 1U);
@@ -171,7 +173,7 @@ TEST_F(ScanFeedTest, GyroscopeAndAttitudeComeWithTheScan) {
   start({}, {true, false});
   transforms_.mount("laser", Pose2());
   for (int i = 0; i <= 60; ++i) {
-    feed_->addImu({at(10.0 + 0.01 * i), 0.5, geometry::Attitude{0.0, 0.1}});
+    feed_->addImu({at(10.0 + 0.01 * i), 0.5, geometry::Attitude{0.0, 0.1}}, at(10.0 + 0.01 * i));
   }
   feed_->add(0, sweep(10.1), at(10.3));
   feed_->add(0, sweep(10.3), at(10.5));

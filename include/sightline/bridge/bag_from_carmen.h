@@ -21,12 +21,14 @@ struct CarmenBagOptions {
 struct CarmenBagContents {
   std::size_t scans = 0;
   std::size_t odometry = 0;
+  std::size_t not_rising = 0;  ///< scans stamped no later than the one before
 };
 
-/// Writes /scan, /odom and /tf (odom→base_link, base_link→laser) in the order of their stamps.
+/// Writes /scan, /odom and /tf (odom→base_link, base_link→laser), scans in the order of the log.
 ///
-/// Scans are stamped with their ipc_time and taken as made at once, since CARMEN does not log how
-/// long a sweep takes. A reading at or beyond the range limit (of the line, of the parameter
+/// Scans are stamped with their ipc_time, or where that does not rise with logs::risingStamps(), and
+/// taken as made at once, since CARMEN does not log how long a sweep takes. `path`.stamps holds both
+/// stamps of each scan (logs::readStamps). A reading at or beyond the range limit (of the line, of the parameter
 /// robot_front_laser_max, or else the 81 m from which on a SICK LMS reports faults) is +Inf; a
 /// reading of zero or less is NaN. The mounting is repeated with each odometry pose, so that the
 /// bag can be played from anywhere.

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
 
 #include <sightline/RangeScan.h>
 #include "sightline/bridge/range_scan_conversion.h"
@@ -26,10 +29,16 @@ class FeedInput {
   std::size_t addScanner();
   /// Throw BadMessage with the reason; the feed has counted it then.
   void take(std::size_t scanner, const sensor_msgs::LaserScan& message, std::int64_t now);
+  void take(std::size_t scanner, const sensor_msgs::MultiEchoLaserScan& message, std::int64_t now);
   void take(std::size_t scanner, const RangeScan& message, std::int64_t now);
   /// Throw BadMessage with the reason.
-  void take(const nav_msgs::Odometry& message);
-  void take(const sensor_msgs::Imu& message);
+  void take(const nav_msgs::Odometry& message, std::int64_t now);
+  void take(const sensor_msgs::Imu& message, std::int64_t now);
+
+  /// Faults that were mended in messages of a scanner (ScanReader::mended).
+  const std::map<std::string, std::string>& mended(std::size_t scanner) const {
+    return scanners_[scanner].reader.mended();
+  }
 
  private:
   struct Scanner {

@@ -8,6 +8,7 @@
 #include "sightline/LineSegmentArray.h"
 #include "sightline/bridge/line_markers.h"
 #include "sightline/bridge/output.h"
+#include "sightline/bridge/shortfall.h"
 #include "sightline/pipeline/estimators.h"
 
 namespace sightline::bridge {
@@ -21,6 +22,7 @@ class LineOutput {
 
   void write(const pipeline::Estimates& estimates);
   /// Summary of all that has been written, a line of text each.
+  EstimatorCount counted() const { return {"lines", scans_, {}}; }
   std::vector<std::string> summary() const;
 
  private:

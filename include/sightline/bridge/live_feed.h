@@ -9,12 +9,12 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2/buffer_core.h>
 
 #include "sightline/bridge/feed_input.h"
 #include "sightline/bridge/input_monitor.h"
 #include "sightline/bridge/tf_transforms.h"
+#include "sightline/bridge/transform_input.h"
 #include "sightline/pipeline/estimators_config.h"
 
 namespace sightline::bridge {
@@ -55,6 +55,7 @@ class LiveFeed {
   void addScanner(ros::NodeHandle& node, const std::string& topic);
   template <class Message>
   void subscribe(ros::NodeHandle& node, const std::string& topic, Input& input);
+  void subscribeTransforms(ros::NodeHandle& node, const std::string& topic, Input& input);
   template <class Message>
   void onScan(std::size_t scanner, const Message& message);
   void deliver();
@@ -62,13 +63,15 @@ class LiveFeed {
 
   diagnostic_updater::Updater& updater_;
   Consumer consumer_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_{buffer_};
+  tf2::BufferCore buffer_;
+  TransformInput transform_input_{buffer_};
   TfTransforms transforms_{buffer_};
   pipeline::ScanFeed feed_;
   FeedInput input_;
   std::vector<std::string> topics_;
   std::vector<Input> scanners_;
+  Input tf_;
+  Input tf_static_;
   Input odometry_;
   Input imu_;
   ros::SteadyTimer timer_;

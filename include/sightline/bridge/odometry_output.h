@@ -7,6 +7,7 @@
 #include <nav_msgs/Odometry.h>
 
 #include "sightline/bridge/output.h"
+#include "sightline/bridge/shortfall.h"
 #include "sightline/pipeline/estimators.h"
 
 namespace sightline::bridge {
@@ -24,6 +25,7 @@ class OdometryOutput {
   std::size_t count(dead_reckoning::MatchState state) const {
     return states_[static_cast<std::size_t>(state)];
   }
+  EstimatorCount counted() const { return {"odometry", scans_ - left_out_, without_pose_}; }
   std::vector<std::string> summary() const;
 
  private:
@@ -33,6 +35,8 @@ class OdometryOutput {
   Port<tf2_msgs::TFMessage> transforms_;
   std::array<std::size_t, 5> states_{};  // how many scans each state had
   std::size_t scans_ = 0;
+  std::size_t left_out_ = 0;
+  ScansByReason without_pose_;
   std::size_t with_wheels_ = 0;
 };
 

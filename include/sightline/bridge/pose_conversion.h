@@ -36,6 +36,11 @@ boost::array<double, 36> toCovariance6(const Eigen::Matrix3d& covariance);
 Eigen::Matrix3d toCovariance3(const boost::array<double, 36>& covariance);
 
 Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform);
+/// Reason for which numbers are no pose of anything on a floor: they are not finite, farther than
+/// 100 km away, or no rotation. Empty where they may be one.
+std::string faultOfPose(const Eigen::Vector3d& position, const geometry_msgs::Quaternion& q);
+/// The rotation that was meant by a quaternion which is one but for its rounding.
+geometry_msgs::Quaternion normalized(const geometry_msgs::Quaternion& q);
 /// A frame's name without the leading slash that tf of old wrote.
 std::string withoutSlash(const std::string& frame);
 

@@ -7,6 +7,7 @@
 #include "sightline/bridge/line_output.h"
 #include "sightline/bridge/odometry_output.h"
 #include "sightline/bridge/room_output.h"
+#include "sightline/bridge/shortfall.h"
 #include "sightline/logs/trajectory.h"
 
 namespace sightline::bridge {
@@ -26,6 +27,8 @@ class RecordedEstimates {
   /// Ends the files; call it after the last scan. Throws config::Error if a file could not be
   /// written.
   void close();
+  /// Number of scans with a result, of each estimator that was asked for.
+  std::vector<EstimatorCount> counts() const;
   /// Summary of the results, a line of text each.
   std::vector<std::string> summary() const;
 

@@ -10,6 +10,7 @@
 
 #include "sightline/TrackerStatus.h"
 #include "sightline/bridge/output.h"
+#include "sightline/bridge/shortfall.h"
 #include "sightline/pipeline/estimators.h"
 
 namespace sightline::bridge {
@@ -18,6 +19,7 @@ namespace sightline::bridge {
 struct RoomOutputConfig {
   bool publish_tf = true;            ///< whether map→odom is broadcast
   double transform_tolerance = 0.0;  ///< the broadcast is dated this much after the scan [s]
+  double transform_rate = 0.0;       ///< at which it is sent again between scans [Hz]; 0: not
   void visit(config::FieldVisitor& visitor);
 };
 
@@ -31,12 +33,18 @@ class RoomOutput {
   /// `has_pose` is whether the tracker has been given a pose. Returns why there is none for this
   /// scan; empty where there is one.
   std::string write(const pipeline::Estimates& estimates, bool has_pose);
+  /// Sends map→odom of the last scan again, as of this time.
+  void resend(const ros::Time& now);
+  /// Writes the map anew: it was replaced.
+  void renewMap();
   const TrackerStatus& status() const { return status_; }
   double odometryScale() const { return odometry_scale_; }
+  EstimatorCount counted() const { return {"rooms", poses_, without_pose_}; }
   std::vector<std::string> summary() const;
 
  private:
   void writeMap();
+  void writeTransform(geometry_msgs::TransformStamped T_map_odom);
   void writePose(const pipeline::Estimates& estimates);
   std::string writeNone(const pipeline::Estimates& estimates, bool has_pose);
 
@@ -50,6 +58,7 @@ class RoomOutput {
   Port<nav_msgs::OccupancyGrid> map_port_;
   Port<visualization_msgs::MarkerArray> markers_;
   TrackerStatus status_;
+  geometry_msgs::TransformStamped T_map_odom_;  // that was sent last; no frame where none was
   double odometry_scale_ = 1.0;
   bool map_is_written_ = false;
   std::size_t scans_ = 0;

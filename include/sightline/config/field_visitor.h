@@ -50,6 +50,9 @@ using Member = std::variant<double*, int*, bool*, std::string*, PathText, Choice
 /// x and y of a pose [m], and its yaw [rad].
 constexpr Range kCoordinate{-1e5, 1e5};
 
+/// A direction in a plane, either way round [rad].
+constexpr Range kDirection{-6.2832, 6.2832};
+
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
@@ -124,7 +127,7 @@ class FieldVisitor {
     group(name, *config);
   }
 
-  /// Poses or configuration structs by names that the document chooses.
+  /// Poses, lists of angles [rad] or configuration structs by names that the document chooses.
   template <class Value>
   void entries(const char* name, std::map<std::string, Value>& values, const char* meaning) {
     std::vector<std::string> present;
@@ -137,6 +140,9 @@ class FieldVisitor {
  private:
   void entry(const char* name, geometry::Pose2& value, const char* meaning) {
     pose(name, value, meaning);
+  }
+  void entry(const char* name, std::vector<double>& value, const char* meaning) {
+    numbers(name, value, {"rad", kDirection, meaning});
   }
   template <class Config>
   void entry(const char* name, Config& value, const char*) {

@@ -11,10 +11,12 @@
 #include "sightline/dead_reckoning/error_state.h"
 #include "sightline/dead_reckoning/match_state.h"
 #include "sightline/dead_reckoning/matcher.h"
+#include "sightline/dead_reckoning/motion_habit.h"
 #include "sightline/dead_reckoning/motion_model.h"
 #include "sightline/dead_reckoning/surface_points.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/geometry/twist2.h"
+#include "sightline/scan/elapsed_time.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::dead_reckoning {
@@ -44,8 +46,8 @@ struct DeadReckoningUpdate {
 struct Match {
   std::int64_t stamp = 0;       ///< of the scan, ns
   double elapsed = 0.0;         ///< since the scan before [s]; 0 where there is none
+  double elapsed_sigma = 0.0;   ///< standard deviation of it [s]
   bool is_first = true;         ///< no scan before it
-  bool begins_anew = true;      ///< the reference is not to be used any more
   StepPrediction prediction;    ///< of the step from the scan before
   SurfaceScan surfaces;         ///< corrected by the motion that was found
   MatchOutcome outcome;         ///< a default one where there is no reference
@@ -60,7 +62,8 @@ struct Match {
 /// Follows a carrier by its scans alone, or with a prior (saarinen section 4.3.4).
 ///
 /// The frame odom is the base's at the first scan. The prediction is the prior, or constant
-/// velocity as uncertain as the carrier's accelerations make it. A sweep whose beams have time
+/// velocity as uncertain as the carrier has shown; where that finds nothing, as uncertain as the
+/// carrier is capable of. A sweep whose beams have time
 /// offsets and no sensor_motion is corrected by the motion that is found. The noise of a
 /// sensor_motion is in the covariances. Whatever comes in, estimates stay finite; not thread-safe.
 class DeadReckoner {
@@ -71,16 +74,27 @@ class DeadReckoner {
   /// Takes one scan: match and commit in a row.
   std::optional<DeadReckoningUpdate> update(const scan::Scan& scan,
                                             const geometry::Pose2& T_base_sensor,
-                                            const std::optional<MotionPrior>& prior = {});
+                                            const std::optional<MotionPrior>& prior = {},
+                                            const std::optional<scan::ElapsedTime>& elapsed = {});
 
   /// Matches a scan without changing anything. Returns nothing for a scan that is not newer than
   /// the one before. The mounting has to be level: the scan of a sensor upside down is mirrored
   /// first, which makes its angles fall.
+  /// @param elapsed  time since the scan before, where the stamps do not tell it; a match that
+  ///                 fails is tried once more with the longest that may have passed
   std::optional<Match> match(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                             const std::optional<MotionPrior>& prior = {}) const;
+                             const std::optional<MotionPrior>& prior = {},
+                             const std::optional<scan::ElapsedTime>& elapsed = {}) const;
   /// Takes a match made since the last commit, reset or restart of the clock. Throws
   /// std::invalid_argument for an older one.
   DeadReckoningUpdate commit(const Match& match);
+
+  /// Motion that is expected of the carrier, by how it has moved.
+  CarrierConfig expectedMotion() const { return habit_.expected(); }
+  /// Step that is expected in so many seconds, without a prior.
+  geometry::Pose2 expectedStep(double elapsed) const {
+    return predictStep(habit_.expected(), twist_, elapsed).step;
+  }
 
   /// Forgets reference and motion. The next scan is at `T_odom_base`, of which it is certain.
   void reset(const geometry::Pose2& T_odom_base = {});
@@ -88,7 +102,11 @@ class DeadReckoner {
   void restartClock();
 
  private:
-  StepPrediction predict(const std::optional<MotionPrior>& prior, double elapsed) const;
+  Match begin(const scan::Scan& scan, const std::optional<scan::ElapsedTime>& elapsed) const;
+  void matchWithin(double elapsed, const CarrierConfig& carrier, const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
+                   const std::optional<MotionPrior>& prior, Match& match) const;
+  StepPrediction predict(const CarrierConfig& carrier, const std::optional<MotionPrior>& prior,
+                         double elapsed) const;
   void locate(const scan::Scan& scan, const geometry::Pose2& T_base_sensor, Match& match) const;
   void correctSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
                     const geometry::UncertainPose2& predicted, const SearchWindow& window,
@@ -99,6 +117,7 @@ class DeadReckoner {
   void learn(const Match& match);
 
   DeadReckonerConfig config_;
+  MotionHabit habit_;
   std::unique_ptr<Matcher> matcher_;
   std::optional<std::int64_t> stamp_;
   geometry::Pose2 T_odom_base_;

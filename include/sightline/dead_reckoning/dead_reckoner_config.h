@@ -12,13 +12,13 @@ enum class Method {
   kHistogram,  ///< angle histogram, then correlation of the translation (saarinen algs 5-7)
 };
 
-/// Motion that the carrier of the scanner is capable of. Defaults are those of an indoor robot on
-/// wheels.
+/// Motion that the carrier of the scanner is capable of: bounds wide enough for robots on wheels and
+/// for people. How it really moves is learned (MotionHabit).
 struct CarrierConfig {
-  double max_speed = 1.2;          ///< [m/s], in any direction
-  double max_turn_rate = 1.5;      ///< [rad/s]
-  double acceleration = 0.4;       ///< standard deviation [m/s²]
-  double turn_acceleration = 1.0;  ///< standard deviation [rad/s²]
+  double max_speed = 6.0;           ///< [m/s], in any direction
+  double max_turn_rate = 6.0;       ///< [rad/s]
+  double acceleration = 5.0;        ///< standard deviation [m/s²], at most
+  double turn_acceleration = 20.0;  ///< standard deviation [rad/s²], at most
 
   void visit(config::FieldVisitor& visitor);
 };
@@ -57,7 +57,7 @@ struct HistogramConfig {
 struct DeadReckonerConfig {
   Method method = Method::kSubmap;
   CarrierConfig carrier;
-  double max_gap = 3.0;  ///< [s] without a scan, after which the reference starts anew
+  double max_gap = 10.0;  ///< time whose motion is sought at most after a gap [s]
   SubmapConfig submap;
   PoseSpaceConfig pose_space;
   HistogramConfig histogram;

@@ -12,6 +12,8 @@ struct Evidence {
   double inliers = 0.0;         ///< lie on their counterpart in the reference
   double contradictions = 0.0;  ///< lie where the reference saw free space, or look through it
   double cost = 1.0;            ///< 0: all explained; 1: nothing is
+  double known = 0.0;           ///< lie where the reference says what there is
+  double known_cost = 1.0;      ///< cost of those alone
 };
 
 /// Weighs a match. A point without a counterpart is no witness against it where the reference did

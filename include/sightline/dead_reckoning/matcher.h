@@ -38,6 +38,7 @@ struct MatchOutcome {
   Eigen::Matrix3d motion_gradient = Eigen::Matrix3d::Zero();
   MatchState state = MatchState::kFailed;
   double inliers = 0.0;         ///< share of the points, [0, 1]
+  double cost = 1.0;            ///< share of the scan that is left unexplained, [0, 1] and beyond
   std::size_t evaluations = 0;  ///< poses that were compared; bounded whatever the settings
   ReferenceTrace reference;
 };

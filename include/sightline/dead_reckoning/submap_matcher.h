@@ -21,8 +21,7 @@ namespace sightline::dead_reckoning {
 /// row fit the second alone.
 class SubmapMatcher : public Matcher {
  public:
-  explicit SubmapMatcher(const SubmapConfig& config)
-      : config_(config), lines_(config.surface_sigma) {}
+  explicit SubmapMatcher(const SubmapConfig& config) : config_(config) {}
 
   bool hasReference() const override { return !trusted_.submap.empty(); }
   MatchOutcome match(const SurfaceScan& surfaces, const geometry::UncertainPose2& prior,
@@ -56,6 +55,7 @@ class SubmapMatcher : public Matcher {
   };
 
   Attempt matchWith(const Reference& reference, const Task& task) const;
+  static bool isBeyondDoubt(const Hypothesis& local, const Task& task);
   Attempt matchWidely(const Reference& reference, const Task& task,
                       std::vector<Hypothesis> hypotheses) const;
   static Task widened(const Task& task);
@@ -65,11 +65,11 @@ class SubmapMatcher : public Matcher {
                     double scale) const;
   MatchOutcome conclude(std::vector<Hypothesis>& hypotheses, const Task& task) const;
   bool isClear(const Hypothesis& hypothesis, bool predicted) const;
+  static bool isAlone(const std::vector<Hypothesis>& hypotheses);
   double addKeyframe(Reference& reference, const SurfaceScan& surfaces,
                      const geometry::Pose2& T_odom_base);
 
   SubmapConfig config_;
-  LineMatcher lines_;
   Reference trusted_;
   Reference fresh_;
   int fresh_matches_ = 0;

@@ -85,7 +85,8 @@ class CarmenReader {
   std::map<std::string, std::size_t> skipped_;
 };
 
-/// A whole log, scans and odometry each in the order of their stamps.
+/// A whole log, scans and odometry each in the order of their lines: stamps may be late and go back
+/// (carmen_stamps.h), be zero or negative.
 struct CarmenLog {
   std::vector<CarmenLaser> scans;
   std::vector<CarmenOdometry> odometry;

@@ -61,7 +61,7 @@ class Estimators {
     lines::PlainExtractor plain;
   };
 
-  void restart();
+  void restartRooms(const LocatedScan& located);
   void removeFloor(LocatedScan& located) const;
   void reckon(Estimates& estimates);
   void addMotion(Estimates& estimates) const;
@@ -74,7 +74,9 @@ class Estimators {
   std::vector<Extractor> extractors_;  // one a scanner, whose geometry it keeps
   std::optional<tracking::RoomTracker> rooms_;
   std::optional<ScanOdometry> odometry_;
-  bool is_mounting_known_ = false;  // of the scans that the odometry took
+  std::optional<geometry::Pose2> T_odom_base_;  // by wheels, at the last scan
+  bool rooms_restart_ = false;                  // the clock was set since that scan
+  bool is_mounting_known_ = false;              // of the scans that the odometry took
 };
 
 }  // namespace sightline::pipeline

@@ -46,6 +46,7 @@ struct RoomsConfig {
 struct InputConfig {
   std::vector<std::string> scans;        ///< topics of sensor_msgs/LaserScan
   std::vector<std::string> range_scans;  ///< topics of sightline/RangeScan
+  std::vector<std::string> echo_scans;   ///< topics of sensor_msgs/MultiEchoLaserScan
   std::string odometry_topic = "odom";
   std::string imu_topic = "imu";
   FeedConfig feed;
@@ -53,7 +54,7 @@ struct InputConfig {
   motion::FloorConfig floor;  ///< of a scanner that leans
 
   void visit(config::FieldVisitor& visitor);
-  /// All topics of scans, lasers first; `scan` where none are named.
+  /// All topics of scans: lasers, range scans, echoes; `scan` where none are named.
   std::vector<std::string> topics() const;
   std::vector<std::string> laserTopics() const;
 };
@@ -63,6 +64,7 @@ struct InputConfig {
 /// ```yaml
 /// scans: [scan]                          # topics of sensor_msgs/LaserScan
 /// range_scans: [range_scan]              # topics of sightline/RangeScan
+/// echo_scans: [echoes]                   # topics of sensor_msgs/MultiEchoLaserScan
 /// noise: {sigma: 0.01}                   # these and more: InputConfig, FeedConfig
 /// frames: {map: map, odom: odom, base: base_link}
 /// mountings: {laser: [0.2, 0.0, 0.0]}    # x, y, yaw on the base [m, m, rad], by frame, where

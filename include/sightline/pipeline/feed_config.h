@@ -7,6 +7,8 @@
 #include "sightline/config/fields.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/motion/odometry_noise.h"
+#include "sightline/pipeline/body_mask.h"
+#include "sightline/pipeline/odometry_bridge.h"
 #include "sightline/scan/noise_model.h"
 
 namespace sightline::pipeline {
@@ -18,6 +20,8 @@ struct Frames {
   std::string base = "base_link";
 
   void visit(config::FieldVisitor& visitor);
+  /// The frames without the leading slash that tf of old wrote.
+  Frames withoutSlashes() const;
 };
 
 /// Source of the odometry of the wheels.
@@ -34,9 +38,12 @@ struct FeedConfig {
   /// Noise of scans that do not bring their variances along.
   scan::NoiseModel noise{scan::NoiseKind::kEstimated};
   OdometrySource odometry_source = OdometrySource::kAutomatic;
+  OdometryLimits odometry_limits;
   bool use_imu = true;
   motion::OdometryNoise sweep_noise = motion::OdometryNoise::unmeasured();
+  BodySectors body;             ///< directions in which scanners see the robot itself
   double head_sigma = 0.0;      ///< of each reported angle of a turning head [rad]
+  double time_offset = 0.0;     ///< added to the stamps of scans [s]
   double patience = 0.5;        ///< for what has been coming [s]
   double start_patience = 2.0;  ///< for what has not come yet [s]
 

@@ -8,24 +8,15 @@
 #include <string>
 
 #include "sightline/motion/pose_history.h"
-#include "sightline/motion/range_scan.h"
+#include "sightline/pipeline/arrived_scan.h"
 #include "sightline/pipeline/feed_config.h"
 #include "sightline/pipeline/imu_history.h"
 #include "sightline/pipeline/located_scan.h"
+#include "sightline/pipeline/odometry_bridge.h"
+#include "sightline/pipeline/sweep_motion.h"
 #include "sightline/pipeline/transforms.h"
 
 namespace sightline::pipeline {
-
-/// A scan as it arrived.
-struct ArrivedScan {
-  std::size_t scanner = 0;
-  scan::Scan scan;
-  std::optional<motion::HeadSweep> head;  ///< of a sensor that turns with a head
-  std::int64_t arrival = 0;               ///< by the feed's clock [ns]
-
-  /// The frame whose motion transforms know: the head's mount, or the sensor itself.
-  const std::string& carriedFrame() const { return head ? head->mount_frame : scan.frame; }
-};
 
 /// Time that a scan may still wait.
 struct Patience {
@@ -43,7 +34,7 @@ class ScanLocator {
     bool waits = false;
   };
 
-  /// The transforms have to live as long.
+  /// The transforms have to live as long. Throws config::Error.
   ScanLocator(const FeedConfig& config, const Frames& frames, const FeedNeeds& needs,
               const Transforms& transforms);
 
@@ -76,10 +67,11 @@ class ScanLocator {
                                                   std::int64_t stamp) const;
   void place(const ArrivedScan& arrived, const std::optional<Eigen::Isometry3d>& T_base_carried,
              LocatedScan& located);
+  void maskBody(const ArrivedScan& arrived, LocatedScan& located) const;
+  void followWheels(LocatedScan& located);
   void addMotion(const ArrivedScan& arrived, std::int64_t lag, LocatedScan& located) const;
   std::optional<std::int64_t> lagOf(const ArrivedScan& arrived) const;
-  void addMotionNoise(const ArrivedScan& arrived, std::int64_t lag, LocatedScan& located) const;
-  void addJitter(const ArrivedScan& arrived, LocatedScan& located) const;
+  bool isOver(const ArrivedScan& arrived) const;
   void explain(const ArrivedScan& arrived, Known odometry, LocatedScan& located) const;
   void addInertial(const ArrivedScan& arrived, std::optional<std::int64_t> before,
                    LocatedScan& located) const;
@@ -89,7 +81,9 @@ class ScanLocator {
   Frames frames_;
   FeedNeeds needs_;
   const Transforms& transforms_;
+  SweepMotion sweep_motion_;
   motion::PoseHistory odometry_;
+  OdometryBridge bridge_;
   ImuHistory imu_;
   std::optional<OdometrySource> source_;                // once it is chosen
   std::map<std::string, Mounting> mountings_;           // by frame

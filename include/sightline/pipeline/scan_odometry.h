@@ -34,6 +34,7 @@ struct ScanOdometryConfig {
 };
 
 /// Odometry from scans, with what goes around the matching: the prior from wheels or a gyroscope,
+/// which is left out of a step that no carrier makes or that the scans explain better without it,
 /// and for a scanner that leans the beams that ended on floor or ceiling, which are left out.
 ///
 /// The frame odom is that of the wheels where they are known at the first scan, otherwise the
@@ -53,8 +54,10 @@ class ScanOdometry {
   std::optional<dead_reckoning::DeadReckoningUpdate> update(const LocatedScan& located);
   /// Starts anew at the next scan.
   void reset();
-  /// The clock was set back: forgets the stamp of the last scan but keeps the pose.
-  void restartClock();
+  /// The clock was set. Where the wheels tell that the carrier is still there, the odometry goes on
+  /// as if one more scan had come; otherwise it forgets the stamp of the last scan and keeps the
+  /// pose.
+  void restartClock() { clock_was_set_ = true; }
 
   /// Beams of the last scan that were found to be on floor or ceiling; empty where none were looked
   /// for.
@@ -63,16 +66,25 @@ class ScanOdometry {
  private:
   struct Before {
     std::int64_t stamp = 0;
-    std::optional<geometry::Pose2> T_odom_base;  // by the wheels
+    std::optional<geometry::Pose2> T_path_base;  // by the wheels
     geometry::UncertainTwist2 twist;
   };
   using Update = dead_reckoning::DeadReckoningUpdate;
   using Prior = std::optional<dead_reckoning::MotionPrior>;
 
+  double elapsedOf(const LocatedScan& located) const;
+  static const std::optional<geometry::Pose2>& pathOf(const LocatedScan& located);
+  std::optional<Update> updateInTime(const LocatedScan& located);
+  void goOnInNewTime(const LocatedScan& located);
   Prior priorOf(const LocatedScan& located) const;
   dead_reckoning::MotionPrior asBefore(double elapsed, double turn) const;
-  std::optional<Update> matchLeaning(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                                     const Prior& prior);
+  bool isPossible(const geometry::Pose2& step, double elapsed) const;
+  std::optional<dead_reckoning::Match> match(const scan::Scan& scan, const LocatedScan& located,
+                                             const geometry::Pose2& T_base_sensor) const;
+  std::optional<Update> matchLevel(const scan::Scan& scan, const LocatedScan& located,
+                                   const geometry::Pose2& T_base_sensor);
+  std::optional<Update> matchLeaning(const scan::Scan& scan, const LocatedScan& located,
+                                     const geometry::Pose2& T_base_sensor);
 
   ScanOdometryConfig config_;
   dead_reckoning::DeadReckoner reckoner_;
@@ -80,6 +92,9 @@ class ScanOdometry {
   std::optional<motion::FloorFinder> finder_;  // of a scanner that leans
   std::optional<Before> before_;
   bool is_new_ = true;
+  bool clock_was_set_ = false;
+  std::int64_t shift_ = 0;   // from the stamps to the time of the reckoner [ns]
+  std::int64_t period_ = 0;  // between the last two scans [ns]
   std::vector<bool> on_floor_;
 };
 

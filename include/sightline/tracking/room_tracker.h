@@ -38,6 +38,9 @@ class RoomTracker {
   /// that name.
   bool setRoom(const std::string& name);
 
+  /// Goes on in another map, with the pose as it is.
+  void replaceMap(world::RoomMap map);
+
   /// Forgets the stamp and the odometry of the last scan but keeps the pose: the clock was set
   /// back.
   void restartClock();
