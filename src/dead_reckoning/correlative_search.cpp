@@ -128,8 +128,7 @@ class BranchAndBound {
 
   // Blocks along a side of the window, of which no more than can be looked at.
   static int blocksAlong(const SearchWindow& window, std::size_t level) {
-    const double wanted =
-        std::ceil((2.0 * window.position + SearchRasters::kCell) / sizeOf(level));
+    const double wanted = std::ceil((2.0 * window.position + SearchRasters::kCell) / sizeOf(level));
     const double most = std::sqrt(kSearch.most_blocks / (2.0 * headingsOf(window) + 1.0));
     return static_cast<int>(std::min(wanted, std::max(1.0, std::floor(most))));
   }

@@ -8,8 +8,8 @@ namespace sightline::dead_reckoning {
 namespace {
 
 constexpr struct {
-  // Before anything is known, and the least, of the change of velocity and of the speed: translation
-  // [m/s², m/s] and heading [rad/s², rad/s].
+  // Before anything is known, and the least, of the change of velocity and of the speed:
+  // translation [m/s², m/s] and heading [rad/s², rad/s].
   double first_change[2] = {1.0, 3.0};
   double least_change[2] = {0.1, 0.25};
   double least_speed[2] = {0.6, 0.75};

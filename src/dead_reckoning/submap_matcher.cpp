@@ -50,8 +50,8 @@ struct MatchTuning {
   double neighbour_position = 0.25;
   double neighbour_heading = 0.1;
   double cost_gap = 0.05;
-  // A pose is alone where the reference knows this share of the scan, what it knows is explained and
-  // not contradicted to these, and no other explanation costs little more.
+  // A pose is alone where the reference knows this share of the scan, what it knows is explained
+  // and not contradicted to these, and no other explanation costs little more.
   double alone_known = 0.3;
   double alone_cost = 0.45;
   double alone_contradictions = 0.3;
@@ -263,8 +263,8 @@ bool SubmapMatcher::isClear(const Hypothesis& hypothesis, bool predicted) const 
   return evidence.cost < config_.max_cost && evidence.contradictions < config_.max_contradictions;
 }
 
-// After a turn or a gap most of a scan is unseen: the right pose is the one that alone explains what
-// the reference knows of it.
+// After a turn or a gap most of a scan is unseen: the right pose is the one that alone explains
+// what the reference knows of it.
 bool SubmapMatcher::isAlone(const std::vector<Hypothesis>& hypotheses) {
   const Hypothesis& best = hypotheses.front();
   const Evidence& evidence = best.evidence;

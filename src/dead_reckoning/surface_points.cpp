@@ -136,9 +136,7 @@ class SurfaceFinder {
  private:
   double range(std::size_t i) const { return (points_[i].position - sensor_).norm(); }
   double gap(std::size_t i) const { return (points_[i].position - points_[i - 1].position).norm(); }
-  double nearer(std::size_t i) const {
-    return std::min(range(i), range(i - 1));
-  }
+  double nearer(std::size_t i) const { return std::min(range(i), range(i - 1)); }
 
   // Finds the surface of a point, which holds the points from `first` to before `end`.
   void find(std::size_t i, std::size_t first, std::size_t end) {
@@ -147,8 +145,7 @@ class SurfaceFinder {
     const double before = i > first ? gap(i) : 0.0;
     const double after = i + 1 < end ? gap(i + 1) : 0.0;
     point.reach = std::max(before, after);
-    const auto wanted =
-        static_cast<std::size_t>(half_length_ / std::max(point.reach, 1e-3));
+    const auto wanted = static_cast<std::size_t>(half_length_ / std::max(point.reach, 1e-3));
     Line best;
     for (std::size_t half = std::clamp(wanted, kSurface.min_half, kSurface.max_half); half > 0;
          half /= 2) {

@@ -68,8 +68,7 @@ void ScanClock::judge() {
     if (step(i) < kClock.short_step * period_) ++shorter;
   }
   const auto steps = static_cast<double>(stamps_.size() - 1);
-  is_of_arrival_ =
-      period_ > 0.0 && static_cast<double>(shorter) > kClock.share_short * steps;
+  is_of_arrival_ = period_ > 0.0 && static_cast<double>(shorter) > kClock.share_short * steps;
 }
 
 double ScanClock::longestStepBefore() const {

@@ -37,8 +37,8 @@ void ScanFeed::add(std::size_t scanner, motion::RangeScan range_scan, std::int64
 // Tells whether a stamp leaps since it is that of an arrival in bursts.
 bool ScanFeed::isOnlyLate(const ArrivedScan& arrived) const {
   const Scanner& scanner = scanners_[arrived.scanner];
-  return scanner.clock.isOfArrival() &&
-         std::abs(scanner.stamps.leap(arrived.scan.stamp)) < 1e-9 * static_cast<double>(kLongestBurst);
+  return scanner.clock.isOfArrival() && std::abs(scanner.stamps.leap(arrived.scan.stamp)) <
+                                            1e-9 * static_cast<double>(kLongestBurst);
 }
 
 void ScanFeed::admit(ArrivedScan arrived) {

@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "sightline/pipeline/odometry_bridge.h"
+
 namespace sightline::pipeline {
 
 using dead_reckoning::MotionPrior;
@@ -172,7 +174,8 @@ std::optional<dead_reckoning::Match> ScanOdometry::match(const scan::Scan& scan,
   auto found = reckoner_.match(scan, T_base_sensor, prior, located.elapsed);
   if (!found || !prior) return found;
   const bool has_failed = found->outcome.state == MatchState::kFailed;
-  const bool is_expected = distanceFrom(*prior, reckoner_.expectedStep(found->elapsed)) < kWheels.gate;
+  const bool is_expected =
+      distanceFrom(*prior, reckoner_.expectedStep(found->elapsed)) < kWheels.gate;
   if (!has_failed && is_expected) return found;
   auto alone = reckoner_.match(scan, T_base_sensor, {}, located.elapsed);
   if (alone->outcome.state == MatchState::kFailed) return found;

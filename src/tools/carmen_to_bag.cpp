@@ -28,11 +28,12 @@ int convert(const std::string& in, const std::string& out,
   printLosses(log);
   const auto contents = bridge::writeCarmenBag(log, options, out);
   if (contents.not_rising > 0) {
-    std::fprintf(stderr,
-                 "%zu of %zu scans are stamped no later than the one before: the order of the log is "
-                 "kept, with rising stamps and the odometry of the scans' own lines; %s.stamps says "
-                 "what was logged\n",
-                 contents.not_rising, contents.scans, out.c_str());
+    std::fprintf(
+        stderr,
+        "%zu of %zu scans are stamped no later than the one before: the order of the log is "
+        "kept, with rising stamps and the odometry of the scans' own lines; %s.stamps says "
+        "what was logged\n",
+        contents.not_rising, contents.scans, out.c_str());
   }
   std::printf("%zu scans, %zu odometry poses\n", contents.scans, contents.odometry);
   return 0;

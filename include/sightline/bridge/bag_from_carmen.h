@@ -26,12 +26,12 @@ struct CarmenBagContents {
 
 /// Writes /scan, /odom and /tf (odom→base_link, base_link→laser), scans in the order of the log.
 ///
-/// Scans are stamped with their ipc_time, or where that does not rise with logs::risingStamps(), and
-/// taken as made at once, since CARMEN does not log how long a sweep takes. `path`.stamps holds both
-/// stamps of each scan (logs::readStamps). A reading at or beyond the range limit (of the line, of the parameter
-/// robot_front_laser_max, or else the 81 m from which on a SICK LMS reports faults) is +Inf; a
-/// reading of zero or less is NaN. The mounting is repeated with each odometry pose, so that the
-/// bag can be played from anywhere.
+/// Scans are stamped with their ipc_time, or where that does not rise with logs::risingStamps(),
+/// and taken as made at once, since CARMEN does not log how long a sweep takes. `path`.stamps holds
+/// both stamps of each scan (logs::readStamps). A reading at or beyond the range limit (of the
+/// line, of the parameter robot_front_laser_max, or else the 81 m from which on a SICK LMS reports
+/// faults) is +Inf; a reading of zero or less is NaN. The mounting is repeated with each odometry
+/// pose, so that the bag can be played from anywhere.
 ///
 /// Throws config::Error where the log holds no scans, or has no velocity to repair its odometry
 /// from; rosbag::BagException where the file cannot be written.

@@ -22,9 +22,9 @@ struct SearchResult {
 
 /// Looks for a scan everywhere in a window: saarinen alg. 4, with the distance to the nearest
 /// neighbour looked up in rasters of the reference, by branch and bound (Hess et al. 2016): blocks
-/// of positions are divided in the order of what they may count at most. Finds the best poses of the
-/// window that are not neighbours of a better one. The number of poses that are scored is bounded,
-/// however wide the window is.
+/// of positions are divided in the order of what they may count at most. Finds the best poses of
+/// the window that are not neighbours of a better one. The number of poses that are scored is
+/// bounded, however wide the window is.
 ///
 /// @param rasters  drawn about the window's centre
 /// @param most     candidates

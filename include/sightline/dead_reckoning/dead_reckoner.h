@@ -103,8 +103,9 @@ class DeadReckoner {
 
  private:
   Match begin(const scan::Scan& scan, const std::optional<scan::ElapsedTime>& elapsed) const;
-  void matchWithin(double elapsed, const CarrierConfig& carrier, const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
-                   const std::optional<MotionPrior>& prior, Match& match) const;
+  void matchWithin(double elapsed, const CarrierConfig& carrier, const scan::Scan& scan,
+                   const geometry::Pose2& T_base_sensor, const std::optional<MotionPrior>& prior,
+                   Match& match) const;
   StepPrediction predict(const CarrierConfig& carrier, const std::optional<MotionPrior>& prior,
                          double elapsed) const;
   void locate(const scan::Scan& scan, const geometry::Pose2& T_base_sensor, Match& match) const;

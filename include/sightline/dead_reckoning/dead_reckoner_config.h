@@ -12,8 +12,8 @@ enum class Method {
   kHistogram,  ///< angle histogram, then correlation of the translation (saarinen algs 5-7)
 };
 
-/// Motion that the carrier of the scanner is capable of: bounds wide enough for robots on wheels and
-/// for people. How it really moves is learned (MotionHabit).
+/// Motion that the carrier of the scanner is capable of: bounds wide enough for robots on wheels
+/// and for people. How it really moves is learned (MotionHabit).
 struct CarrierConfig {
   double max_speed = 6.0;           ///< [m/s], in any direction
   double max_turn_rate = 6.0;       ///< [rad/s]

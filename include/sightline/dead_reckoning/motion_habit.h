@@ -7,8 +7,8 @@
 namespace sightline::dead_reckoning {
 
 /// Learns how a carrier really moves: how much its velocity changes from scan to scan, and how fast
-/// it gets. A surprise counts at once and fades over a score of scans, so that a robot on wheels and
-/// a person need no settings of their own.
+/// it gets. A surprise counts at once and fades over a score of scans, so that a robot on wheels
+/// and a person need no settings of their own.
 class MotionHabit {
  public:
   /// @param limits  what the carrier is capable of

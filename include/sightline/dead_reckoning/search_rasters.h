@@ -11,10 +11,10 @@
 
 namespace sightline::dead_reckoning {
 
-/// Surfaces of a submap about a place, drawn as what a point there counts: 255 on a surface and less
-/// with the distance from it. At level l, a cell counts the most of the 2^l by 2^l cells from it on:
-/// an upper bound for all positions that differ by less than that. Cells lie on a torus, as those of
-/// the submap do: what is 51 m away looks as if it were here.
+/// Surfaces of a submap about a place, drawn as what a point there counts: 255 on a surface and
+/// less with the distance from it. At level l, a cell counts the most of the 2^l by 2^l cells from
+/// it on: an upper bound for all positions that differ by less than that. Cells lie on a torus, as
+/// those of the submap do: what is 51 m away looks as if it were here.
 class SearchRasters {
  public:
   static constexpr double kCell = 0.1;       ///< side of a cell [m]

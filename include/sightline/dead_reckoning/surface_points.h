@@ -33,7 +33,7 @@ struct SurfaceScan {
   std::vector<SurfacePoint> points;                  ///< of the valid beams, in their order
   Eigen::Vector2d sensor = Eigen::Vector2d::Zero();  ///< in the base, at the stamp [m]
   double beam_angle = 0.0;                           ///< from one beam to the next [rad]
-  double sigma = 0.0;  ///< median standard deviation along a beam [m]
+  double sigma = 0.0;                                ///< median standard deviation along a beam [m]
   /// Noise of the sensor's motion, along the axes of the base. The jitter is in the variances of
   /// the points.
   scan::MotionNoise motion_noise;
@@ -42,9 +42,9 @@ struct SurfaceScan {
 };
 
 /// Reads the valid beams of a scan. Each point gets a line through its neighbours on the same
-/// surface: those on both sides, or on the better one, so that corners stay sharp. A far point whose
-/// neighbours show none is taken for a thing as wide as the beam that faces the sensor: a door frame
-/// down a corridor is a return or two. Lengths grow with the noise of the beams.
+/// surface: those on both sides, or on the better one, so that corners stay sharp. A far point
+/// whose neighbours show none is taken for a thing as wide as the beam that faces the sensor: a
+/// door frame down a corridor is a return or two. Lengths grow with the noise of the beams.
 ///
 /// @param twist  of the base [m/s, m/s, rad/s]: corrects the sweep where the beams have time
 ///               offsets and the scan says no motion of its own
