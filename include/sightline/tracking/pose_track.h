@@ -36,6 +36,7 @@ class PoseTrack {
   /// Adds an independent error of these standard deviations [m, rad].
   void inflate(double position_sigma, double heading_sigma);
   geometry::UncertainPose2 pose() const { return filter_.pose(); }
+  std::size_t room() const { return memory_.room(); }
   TrackMemory& memory() { return memory_; }
 
  private:

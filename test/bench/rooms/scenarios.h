@@ -41,10 +41,10 @@ inline void printKidnap(TwoRoomRuns& runs, int seeds) {
   for (int seed = 1; seed <= seeds; ++seed) {
     const RecordedDrive& other = runs.eastern(seed);
     const TwoRoomRun run{"kidnap",
-                         [&](RecordedDrive& drive, auto) { kidnap(drive, other, kHalfTime); },
+                         [&](RecordedDrive& drive, auto) { kidnap(drive, other, kKidnapTime); },
                          startAt(kStart)};
     const auto scans = runs.trackedBy(run, seed);
-    recovered = std::max(recovered, rightForGoodAfter(scans, kHalfTime));
+    recovered = std::max(recovered, rightForGoodAfter(scans, kKidnapTime));
     wrong = std::max(wrong, claimedWrong(scans));
   }
   print("rooms.two_rooms.kidnap.recovered_s", recovered, "s");

@@ -14,8 +14,9 @@
 /// 10 Hz to 8 m with 1 cm of noise, the laser 0.1 m ahead, odometry 2 % short with drift on top.
 namespace sightline::bench {
 
-constexpr double kScanPeriod = 0.1;  // [s]
-constexpr double kHalfTime = 60.0;   // [s]
+constexpr double kScanPeriod = 0.1;   // [s]
+constexpr double kHalfTime = 60.0;    // [s]
+constexpr double kKidnapTime = 85.0;  // in the west room [s]
 
 struct TwoRoomRun {
   std::string name;
@@ -89,8 +90,9 @@ class TwoRoomRuns {
   const RecordedDrive& eastern(int seed) {
     return recorded("east", seed, [](DriveSetup& setup) {
       setup.start = {8.0, -1.0, 2.0};
-      setup.path.waypoints_map = {{8, 2}, {6, 2},  {6, -2}, {8, -2}, {8, 1},   {6, 0.5}, {8, 2},
-                                  {6, 2}, {6, -2}, {8, -2}, {8, 1},  {6, 0.5}, {2, 0.5}, {-2, 2}};
+      setup.path.waypoints_map = {{8, 2},  {6, 2},  {6, -2}, {8, -2},  {8, 1},   {6, 0.5},
+                                  {8, 2},  {6, 2},  {6, -2}, {8, -2},  {8, 2},   {6, 2},
+                                  {6, -2}, {8, -2}, {8, 1},  {6, 0.5}, {2, 0.5}, {-2, 2}};
     });
   }
   const QualityCalibration& calibration() const { return calibration_; }
