@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -31,7 +32,8 @@ constexpr struct {
   double same_heading = 0.05;
   double found_position = 0.1;  // sigma of a pose that was found [m, rad]
   double found_heading = 0.03;
-  int search_again = 10;  // scans, where the robot stands
+  int search_again = 16;   // scans at most, where the robot stands
+  double as_given = 14.2;  // of chi-square with 3 degrees of freedom, 99.7 %
   double sure = 0.9;
   double hopeless = 0.1;
   double believed = 2.0;  // log odds of a start
@@ -63,12 +65,11 @@ double sumOfExponentials(double a, double b) {
 
 RivalTracks::RivalTracks(const TrackingContext& context, const UncertainPose2& start,
                          std::size_t room) {
-  if (isToBeSearched(start)) {
-    start_ = start;
-    return;
-  }
-  hypotheses_.push_back(
-      {PoseTrack(context, start, room), PoseBelief(kRivals.believed), 0.0, 0.0, {}, true});
+  start_ = start;
+  if (isToBeSearched(start)) return;
+  Hypothesis given{PoseTrack(context, start, room), PoseBelief(kRivals.believed), 0.0, 0.0, {}};
+  given.is_published = given.is_trusted = true;
+  hypotheses_.push_back(std::move(given));
   is_started_ = is_claimed_ = true;
 }
 
@@ -79,14 +80,7 @@ std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
   if (input.scan.beams() == 0) return std::nullopt;
   move(context, input);
   ++scans_since_search_;
-  if (isInDoubt()) {
-    const bool is_new = keys_.isNew(input);
-    if (is_new || scans_since_search_ >= kRivals.search_again) {
-      keys_.add(input);
-      weigh(input, is_new);
-      search(context, input);
-    }
-  }
+  if (isInDoubt()) look(context, input);
   thinOut();
   settle();
   if (!is_started_) return std::nullopt;
@@ -104,6 +98,17 @@ void RivalTracks::move(const TrackingContext& context, const TrackerInput& input
   }
 }
 
+// Compares the explanations of a scan that says something new; of one from the same place less and
+// less often.
+void RivalTracks::look(const TrackingContext& context, const TrackerInput& input) {
+  const bool is_new = keys_.isNew(input);
+  if (!is_new && scans_since_search_ < search_again_) return;
+  search_again_ = is_new ? 1 : std::min(2 * search_again_, kRivals.search_again);
+  keys_.add(input);
+  weigh(input, is_new);
+  search(context, input);
+}
+
 void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {
   for (Hypothesis& hypothesis : hypotheses_) {
     const double log_likelihood =
@@ -115,36 +120,50 @@ void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {
 
 void RivalTracks::search(const TrackingContext& context, const TrackerInput& input) {
   scans_since_search_ = 0;
-  for (const PoseCandidate& found : relocalise(context.map, input.scan, input.T_base_sensor)) {
+  std::vector<Hypothesis> found;
+  for (const PoseCandidate& candidate : relocalise(context.map, input.scan, input.T_base_sensor)) {
     const auto is_known = [&](const Hypothesis& known) {
-      return areOne(known.track.pose().mean, found.T_map_base);
+      return areOne(known.track.pose().mean, candidate.T_map_base);
     };
     if (std::any_of(hypotheses_.begin(), hypotheses_.end(), is_known)) continue;
-    const auto start = uncertain(found.T_map_base, kRivals.found_position, kRivals.found_heading);
-    Hypothesis rival{PoseTrack(context, start, found.room), PoseBelief(0.0), 0.0, 0.0, {}, false};
+    const auto start =
+        uncertain(candidate.T_map_base, kRivals.found_position, kRivals.found_heading);
+    Hypothesis rival{PoseTrack(context, start, candidate.room), PoseBelief(0.0), 0.0, 0.0, {}};
     const auto update = rival.track.update(context, input);
     if (!update) continue;
     rival.update = *update;
     rival.belief.take(update->agreement, *input.scan.geometry(), update->is_outside);
     rival.last_key = logLikelihood(update->agreement, *input.scan.geometry());
-    rival.log_posterior = priorOf(found.T_map_base) + rival.last_key +
-                          keys_.logLikelihoodBefore(context.map, update->pose.mean);
-    hypotheses_.push_back(std::move(rival));
+    rival.log_posterior = rival.last_key + logPriorOf(context, update->pose.mean);
+    rival.is_trusted = !is_checked_ && start_ && mahalanobis(update->pose.mean) < kRivals.as_given;
+    found.push_back(std::move(rival));
   }
+  for (Hypothesis& rival : found) hypotheses_.push_back(std::move(rival));
   is_checked_ = true;
 }
 
-double RivalTracks::priorOf(const Pose2& T_map_base) const {
-  if (start_) {
-    Eigen::Vector3d off = T_map_base.coordinates() - start_->mean.coordinates();
-    off[2] = geometry::wrapAngle(off[2]);
-    return std::max(kRivals.carried, -0.5 * off.dot(start_->covariance.inverse() * off));
+double RivalTracks::mahalanobis(const Pose2& T_map_base) const {
+  Eigen::Vector3d off = T_map_base.coordinates() - start_->mean.coordinates();
+  off[2] = geometry::wrapAngle(off[2]);
+  return off.dot(start_->covariance.inverse() * off);
+}
+
+// Prior of a pose that turned up by search and the evidence of the scans before this one: the robot
+// has come there as the odometry says, or from where another hypothesis has it, pushed or carried.
+double RivalTracks::logPriorOf(const TrackingContext& context, const Pose2& T_map_base) const {
+  double prior = -std::numeric_limits<double>::infinity();
+  if (!is_started_) {
+    const double given = start_ ? std::max(kRivals.carried, -0.5 * mahalanobis(T_map_base)) : 0.0;
+    prior = given + keys_.logLikelihoodBefore(context.map, T_map_base);
   }
-  if (!is_claimed_ || hypotheses_.empty()) return 0.0;
-  const Pose2 published = hypotheses_.front().track.pose().mean;
-  const double distance = (published.translation() - T_map_base.translation()).norm();
-  if (distance < kRivals.push_reach) return kRivals.pushed;
-  return is_checked_ ? kRivals.carried : kRivals.wrong_start;
+  const double elsewhere = is_checked_ ? kRivals.carried : kRivals.wrong_start;
+  for (const Hypothesis& other : hypotheses_) {
+    const Eigen::Vector2d position = other.track.pose().mean.translation();
+    const bool is_near = (position - T_map_base.translation()).norm() < kRivals.push_reach;
+    const double jump = is_near ? kRivals.pushed : elsewhere;
+    prior = std::max(prior, other.log_posterior - other.last_key + jump);
+  }
+  return prior;
 }
 
 // The most probable first, without those that have become one with a better one or are hopeless.
@@ -180,12 +199,15 @@ void RivalTracks::settle() {
   if (!hypotheses_.front().is_published) {
     for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_published = false;
     hypotheses_.front().is_published = true;
-    if (is_claimed_) way_.restart();
-    is_claimed_ = false;
+    if (is_claimed_ && !hypotheses_.front().is_trusted) {
+      way_.restart();
+      is_claimed_ = false;
+    }
   }
   if (!is_claimed_) claimIfCertain();
   if (isInDoubt()) return;
   keys_.clear();
+  search_again_ = 1;
   hypotheses_.front().log_posterior = hypotheses_.front().last_key = 0.0;
 }
 
@@ -200,6 +222,7 @@ void RivalTracks::claimIfCertain() {
   if (!is_certain || !isSound(best.update.agreement) || !way_.isEnough()) return;
   is_claimed_ = is_started_ = true;
   start_.reset();
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_trusted = hypothesis.is_published;
 }
 
 double RivalTracks::probabilityOf(const Hypothesis& hypothesis) const {

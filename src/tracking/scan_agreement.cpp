@@ -26,8 +26,8 @@ struct BeamModel {
            static_cast<double>(agreement.beyond) * std::log(through);
   }
 };
-constexpr BeamModel kRight{0.6, 0.38, 0.02};
-constexpr BeamModel kElsewhere{0.15, 0.5, 0.35};
+constexpr BeamModel kRight{0.79, 0.19, 0.02};
+constexpr BeamModel kElsewhere{0.53, 0.19, 0.28};
 constexpr double kIndependent = 0.07;  // angle between beams that tell two things [rad]
 
 // Share of an independent statement that one of the beams looked at makes.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sightline/scan/scan_geometry.h"
 #include "sightline/tracking/scan_agreement.h"
 
@@ -16,12 +18,16 @@ class PoseBelief {
   void take(const ScanAgreement& agreement, const scan::ScanGeometry& geometry, bool is_outside);
 
   double probability() const;
-  /// Whether the last scan spoke against the pose.
-  bool isContradicted() const { return last_ < 0.0; }
+  /// Whether the last scan spoke against the pose, or met far fewer walls than those before.
+  bool isContradicted() const { return last_ < 0.0 || is_surprised_; }
 
  private:
+  void compareHits(const ScanAgreement& agreement);
+
   double log_odds_;
   double last_ = 0.0;
+  std::optional<double> usual_hits_;  // share of the beams that meet walls
+  bool is_surprised_ = false;
 };
 
 /// A scan that a pose may be claimed by: less than 4 % of the beams go through walls, and at least

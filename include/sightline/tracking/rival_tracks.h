@@ -49,12 +49,15 @@ class RivalTracks {
     double last_key = 0.0;       // the part of the last key scan in it
     TrackerUpdate update;        // by the last scan
     bool is_published = false;
+    bool is_trusted = false;  // as near to the given start as it was said to be, or claimed since
   };
 
   void move(const TrackingContext& context, const TrackerInput& input);
+  void look(const TrackingContext& context, const TrackerInput& input);
   void weigh(const TrackerInput& input, bool is_new_key);
   void search(const TrackingContext& context, const TrackerInput& input);
-  double priorOf(const geometry::Pose2& T_map_base) const;
+  double mahalanobis(const geometry::Pose2& T_map_base) const;
+  double logPriorOf(const TrackingContext& context, const geometry::Pose2& T_map_base) const;
   void thinOut();
   void settle();
   void claimIfCertain();
@@ -64,7 +67,7 @@ class RivalTracks {
   TrackerUpdate report(const TrackingContext& context);
 
   std::vector<Hypothesis> hypotheses_;             // most probable first
-  std::optional<geometry::UncertainPose2> start_;  // a vague one
+  std::optional<geometry::UncertainPose2> start_;  // as given; until a pose is claimed
   KeyScans keys_;
   WayTravelled way_;  // since the published pose was last put in question
   std::optional<std::int64_t> newest_;
@@ -72,7 +75,8 @@ class RivalTracks {
   bool is_claimed_ = false;
   bool is_checked_ = false;  // whether the start has been compared with the rest of the map
   int scans_since_search_ = 0;
-  int lost_scans_ = 0;  // in a row
+  int search_again_ = 1;  // scans after the last search, from the same place
+  int lost_scans_ = 0;    // in a row
 };
 
 }  // namespace sightline::tracking

@@ -29,13 +29,13 @@ struct ScanAgreement {
 };
 
 /// Logarithm of the likelihood of a scan, up to what is the same for all poses, by a beam model of
-/// three outcomes: a beam meets the wall (0.6), something before it (0.38), or goes through it
+/// three outcomes: a beam meets the wall (0.79), something before it (0.19), or goes through it
 /// (0.02). Beams of which the map tells nothing count as stopped before a wall. What stops one beam
 /// stops its neighbours: all within 4° together count as one.
 double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& geometry);
 /// Logarithm of the odds by which a scan speaks for the pose and against just any other one, from
-/// which beams meet walls by chance (0.15), are stopped (0.5) or go through (0.35). What the map
-/// does not tell says nothing.
+/// which fewer beams meet walls (0.53), as many are stopped (0.19) and more go through (0.28). What
+/// the map does not tell says nothing.
 double logOdds(const ScanAgreement& agreement, const scan::ScanGeometry& geometry);
 
 /// `tolerance` [m], of the distance from a wall and of the place on it, is for what pose, map and
