@@ -24,8 +24,10 @@ constexpr struct {
   double wrong_start = -4.6;
   double pushed = -4.6;
   double carried = -9.2;
-  double push_reach = 0.75;  // [m]
-  double claim = 9.2;        // odds of 10⁴
+  double push_reach = 0.75;   // [m]
+  double slip = 0.3;          // [m]
+  double slip_heading = 0.2;  // [rad]
+  double claim = 9.2;         // odds of 10⁴
   double dropped = -14.0;
   std::size_t most = 40;
   double same_position = 0.1;  // of two tracks that have become one [m, rad]
@@ -135,11 +137,20 @@ void RivalTracks::search(const TrackingContext& context, const TrackerInput& inp
     rival.belief.take(update->agreement, *input.scan.geometry(), update->is_outside);
     rival.last_key = logLikelihood(update->agreement, *input.scan.geometry());
     rival.log_posterior = rival.last_key + logPriorOf(context, update->pose.mean);
-    rival.is_trusted = !is_checked_ && start_ && mahalanobis(update->pose.mean) < kRivals.as_given;
+    rival.is_trusted = isTrusted(update->pose.mean);
     found.push_back(std::move(rival));
   }
   for (Hypothesis& rival : found) hypotheses_.push_back(std::move(rival));
   is_checked_ = true;
+}
+
+// Whether a pose that was found is the given one, as far as that was said to be known, or differs
+// from the published one by no more than a slip of the wheels.
+bool RivalTracks::isTrusted(const Pose2& T_map_base) const {
+  if (!is_claimed_ || hypotheses_.empty()) return false;
+  if (!is_checked_) return start_ && mahalanobis(T_map_base) < kRivals.as_given;
+  const Pose2 off = geometry::between(hypotheses_.front().track.pose().mean, T_map_base);
+  return off.translation().norm() < kRivals.slip && std::abs(off.theta()) < kRivals.slip_heading;
 }
 
 double RivalTracks::mahalanobis(const Pose2& T_map_base) const {

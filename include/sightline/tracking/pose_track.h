@@ -22,10 +22,13 @@ class PoseTrack {
     PoseFilter filter;
     std::vector<WallUpdate> walls;
     ScanAgreement agreement;
+    double log_posterior = 0.0;  ///< up to a constant: prior, beams and walls
   };
   /// Moves with the odometry to the stamp of a scan.
   void predict(const TrackingContext& context, const TrackerInput& input);
-  /// The scan as predicted, or as after a slip of the wheels where that agrees better.
+  /// The scan as predicted; where that does not agree, the best of that, of the motion before
+  /// having gone on whatever the wheels say, of a slip of the wheels, and of no wall at all being
+  /// what it was taken for.
   Explanation explain(const TrackingContext& context, const TrackerInput& input) const;
   /// Takes an explanation for the truth, and goes into the next room where it leads there.
   TrackerUpdate commit(const TrackingContext& context, const TrackerInput& input,
@@ -42,8 +45,15 @@ class PoseTrack {
  private:
   Explanation explainFrom(const PoseFilter& prior, const TrackingContext& context,
                           const TrackerInput& input, const Sweep& sweep) const;
+  Explanation withoutWalls(const Explanation& taken, const TrackingContext& context,
+                           const TrackerInput& input) const;
+  void judge(const TrackingContext& context, const TrackerInput& input,
+             Explanation& explanation) const;
 
   PoseFilter filter_;
+  std::optional<PoseFilter> coasting_;          // as if the motion before had gone on
+  std::optional<geometry::Pose2> before_;       // pose after the last scan
+  std::optional<geometry::Pose2> last_motion_;  // from the last scan but one to the last
   TrackMemory memory_;
 };
 

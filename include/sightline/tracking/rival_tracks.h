@@ -56,6 +56,7 @@ class RivalTracks {
   void look(const TrackingContext& context, const TrackerInput& input);
   void weigh(const TrackerInput& input, bool is_new_key);
   void search(const TrackingContext& context, const TrackerInput& input);
+  bool isTrusted(const geometry::Pose2& T_map_base) const;
   double mahalanobis(const geometry::Pose2& T_map_base) const;
   double logPriorOf(const TrackingContext& context, const geometry::Pose2& T_map_base) const;
   void thinOut();
