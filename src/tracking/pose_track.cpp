@@ -62,13 +62,31 @@ constexpr struct {
   double coasting = -2.0;
   double slip = -4.6;
   double no_walls = -2.0;
+  double close_walls = -1.0;
+  // What counts as close [m, rad], one sigma.
+  double close_position = 0.05;
+  double close_heading = 0.015;
+  // Beams that meet walls of the map and yet belong to no wall that corrects the pose: more than
+  // this share of them is not as predicted, and costs this log odds where it is all of them.
+  double most_unused = 0.3;
+  double unused = -8.0;
 } kPriors;
+
+double unusedShare(const PoseTrack::Explanation& explanation) {
+  double used = 0.0;
+  for (const WallUpdate& wall : explanation.walls) {
+    if (wall.accepted()) used += static_cast<double>(wall.acceptedBeams());
+  }
+  const auto met = static_cast<double>(explanation.agreement.on_wall);
+  return met > 0.0 ? std::max(0.0, 1.0 - used / met) : 0.0;
+}
 
 bool contradictsPrediction(const TrackerInput& input, const PoseTrack::Explanation& explanation,
                            double min_quality) {
   const ScanAgreement& agreement = explanation.agreement;
   if (agreement.evidence() >= kLeastEvidence && agreement.quality() < min_quality) return true;
   if (logOdds(agreement, *input.scan.geometry()) < 0.0) return true;
+  if (unusedShare(explanation) > kPriors.most_unused) return true;
   // Walls well seen and yet refused: gates must not lock out for ever what contradicts a wrong
   // prediction.
   std::size_t accepted = 0;
@@ -99,12 +117,13 @@ void PoseTrack::predict(const TrackingContext& context, const TrackerInput& inpu
 }
 
 PoseTrack::Explanation PoseTrack::explainFrom(const PoseFilter& prior,
+                                              const PoseFilter& looked_from,
                                               const TrackingContext& context,
                                               const TrackerInput& input, const Sweep& sweep) const {
   Explanation explanation{prior, {}, {}, 0.0};
   const WallFinder finder(context.config);
   for (WallFit& fit :
-       finder.find(prior, context.map, wallsInSight(context, memory_.room()), sweep)) {
+       finder.find(looked_from, context.map, wallsInSight(context, memory_.room()), sweep)) {
     explanation.walls.emplace_back(std::move(fit));
   }
   explanation.filter.beginSweep(sweep.motion_noise);
@@ -124,6 +143,7 @@ void PoseTrack::judge(const TrackingContext& context, const TrackerInput& input,
     if (!wall.innovation) continue;
     explanation.log_posterior -= 0.5 * std::min(wall.innovation->nis, context.config.wall.max_nis);
   }
+  explanation.log_posterior += kPriors.unused * unusedShare(explanation);
 }
 
 // The walls that were found were none: the pose stays as predicted.
@@ -132,11 +152,9 @@ PoseTrack::Explanation PoseTrack::withoutWalls(const Explanation& taken,
                                                const TrackerInput& input) const {
   Explanation none{filter_, taken.walls, {}, 0.0};
   judge(context, input, none);
-  none.log_posterior = logLikelihood(none.agreement, *input.scan.geometry());
+  none.log_posterior = logLikelihood(none.agreement, *input.scan.geometry()) + kPriors.unused;
   for (WallUpdate& wall : none.walls) {
-    if (!wall.accepted()) continue;
-    wall.refusal = WallRefusal::kOutsideGate;
-    none.log_posterior -= 0.5 * context.config.wall.max_nis / 4.0;
+    if (wall.accepted()) wall.refusal = WallRefusal::kOutsideGate;
   }
   return none;
 }
@@ -145,18 +163,21 @@ PoseTrack::Explanation PoseTrack::explain(const TrackingContext& context,
                                           const TrackerInput& input) const {
   const SlipConfig& slip = context.config.slip;
   const Sweep sweep = readSweep(input.scan, input.T_base_sensor);
-  Explanation best = explainFrom(filter_, context, input, sweep);
+  Explanation best = explainFrom(filter_, filter_, context, input, sweep);
   if (!contradictsPrediction(input, best, slip.min_quality)) return best;
   const auto consider = [&best](Explanation other, double log_prior) {
     other.log_posterior += log_prior;
     if (other.log_posterior > best.log_posterior) best = std::move(other);
   };
   const Explanation taken = best;
+  const PoseFilter close = filter_.limited(kPriors.close_position, kPriors.close_heading);
+  consider(explainFrom(filter_, close, context, input, sweep), kPriors.close_walls);
   consider(withoutWalls(taken, context, input), kPriors.no_walls);
-  if (coasting_) consider(explainFrom(*coasting_, context, input, sweep), kPriors.coasting);
+  if (coasting_)
+    consider(explainFrom(*coasting_, *coasting_, context, input, sweep), kPriors.coasting);
   PoseFilter slipped = filter_;
   slipped.inflate(slip.position_sigma, slip.heading_sigma);
-  consider(explainFrom(slipped, context, input, sweep), kPriors.slip);
+  consider(explainFrom(slipped, slipped, context, input, sweep), kPriors.slip);
   return best;
 }
 

@@ -163,15 +163,16 @@ double RivalTracks::mahalanobis(const Pose2& T_map_base) const {
 // has come there as the odometry says, or from where another hypothesis has it, pushed or carried.
 double RivalTracks::logPriorOf(const TrackingContext& context, const Pose2& T_map_base) const {
   double prior = -std::numeric_limits<double>::infinity();
-  if (!is_started_) {
-    const double given = start_ ? std::max(kRivals.carried, -0.5 * mahalanobis(T_map_base)) : 0.0;
-    prior = given + keys_.logLikelihoodBefore(context.map, T_map_base);
+  if (!is_started_ || !is_checked_) {
+    const double given = start_ ? -0.5 * mahalanobis(T_map_base) : 0.0;
+    const double least = is_started_ ? kRivals.wrong_start : kRivals.carried;
+    prior = std::max(least, given) + keys_.logLikelihoodBefore(context.map, T_map_base);
+    if (is_started_) return prior;
   }
-  const double elsewhere = is_checked_ ? kRivals.carried : kRivals.wrong_start;
   for (const Hypothesis& other : hypotheses_) {
     const Eigen::Vector2d position = other.track.pose().mean.translation();
     const bool is_near = (position - T_map_base.translation()).norm() < kRivals.push_reach;
-    const double jump = is_near ? kRivals.pushed : elsewhere;
+    const double jump = is_near ? kRivals.pushed : kRivals.carried;
     prior = std::max(prior, other.log_posterior - other.last_key + jump);
   }
   return prior;

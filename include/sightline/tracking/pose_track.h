@@ -27,8 +27,8 @@ class PoseTrack {
   /// Moves with the odometry to the stamp of a scan.
   void predict(const TrackingContext& context, const TrackerInput& input);
   /// The scan as predicted; where that does not agree, the best of that, of the motion before
-  /// having gone on whatever the wheels say, of a slip of the wheels, and of no wall at all being
-  /// what it was taken for.
+  /// having gone on whatever the wheels say, of a slip of the wheels, of walls close to where they
+  /// are expected alone, and of no wall at all being what it was taken for.
   Explanation explain(const TrackingContext& context, const TrackerInput& input) const;
   /// Takes an explanation for the truth, and goes into the next room where it leads there.
   TrackerUpdate commit(const TrackingContext& context, const TrackerInput& input,
@@ -43,8 +43,10 @@ class PoseTrack {
   TrackMemory& memory() { return memory_; }
 
  private:
-  Explanation explainFrom(const PoseFilter& prior, const TrackingContext& context,
-                          const TrackerInput& input, const Sweep& sweep) const;
+  // Walls are looked for as far as one filter leaves open, and correct the other.
+  Explanation explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
+                          const TrackingContext& context, const TrackerInput& input,
+                          const Sweep& sweep) const;
   Explanation withoutWalls(const Explanation& taken, const TrackingContext& context,
                            const TrackerInput& input) const;
   void judge(const TrackingContext& context, const TrackerInput& input,
