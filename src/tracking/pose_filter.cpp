@@ -79,6 +79,18 @@ void PoseFilter::inflate(double position_sigma, double heading_sigma) {
   covariance_(2, 2) += heading_sigma * heading_sigma;
 }
 
+PoseFilter PoseFilter::limited(double position_sigma, double heading_sigma) const {
+  PoseFilter result = *this;
+  Eigen::Matrix<double, kStates, 1> factors = Eigen::Matrix<double, kStates, 1>::Ones();
+  const Eigen::Vector3d limits(position_sigma, position_sigma, heading_sigma);
+  for (int i = 0; i < 3; ++i) {
+    const double sigma = std::sqrt(covariance_(i, i));
+    if (sigma > limits[i]) factors[i] = limits[i] / sigma;
+  }
+  result.covariance_ = factors.asDiagonal() * covariance_ * factors.asDiagonal();
+  return result;
+}
+
 geometry::UncertainPose2 PoseFilter::pose() const {
   return {pose_, covariance_.topLeftCorner<3, 3>()};
 }

@@ -41,6 +41,9 @@ class PoseFilter {
   /// Adds an independent error of these standard deviations [m, rad].
   void inflate(double position_sigma, double heading_sigma);
 
+  /// The same with no more uncertainty than these standard deviations [m, rad].
+  PoseFilter limited(double position_sigma, double heading_sigma) const;
+
   geometry::UncertainPose2 pose() const;
   double scale() const { return scale_; }
   double scaleSigma() const { return std::sqrt(covariance_(3, 3)); }
