@@ -84,7 +84,7 @@ std::optional<Mounting> FramesCheck::mounting(const std::string& frame, std::int
   Mounting mounting;
   mounting.upside_down = R(2, 2) < 0.0;
   mounting.tilt = std::acos(std::min(1.0, std::abs(R(2, 2))));
-  mounting.T_base_sensor = {std::atan2(R(1, 0), R(0, 0)), T_base_sensor->translation().head<2>()};
+  mounting.T_base_sensor = {T_base_sensor->translation().head<2>(), std::atan2(R(1, 0), R(0, 0))};
   return mounting;
 }
 

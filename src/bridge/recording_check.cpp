@@ -114,7 +114,7 @@ void RecordingCheck::addMounting(const ScannerCheck& scanner, Findings& findings
   findings.push_back(
       {Severity::kNote,
        fmt::format("mounted at x {:.3f} m, y {:.3f} m, turned by {:.1f} degrees{}", pose.x(),
-                   pose.y(), degrees(pose.angle()), mounting->upside_down ? ", upside down" : "")});
+                   pose.y(), degrees(pose.theta()), mounting->upside_down ? ", upside down" : "")});
   if (mounting->tilt > kMostTilt) {
     findings.push_back(
         {Severity::kError, fmt::format("the scanner's plane is {:.0f} degrees from level: is {} an "

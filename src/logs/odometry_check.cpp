@@ -1,21 +1,20 @@
 #include "sightline/logs/odometry_check.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include "sightline/geometry/angle.h"
 
 namespace sightline::logs {
 
 namespace {
 
-constexpr double kFarthest = 1e6;  // [m]
+constexpr double kWorldEnd = 1e6;  // [m]
 // A step that is faster than this, and by more than what late stamps explain, is a jump.
 constexpr double kFastest = 6.0;    // [m/s] and [rad/s]
 constexpr double kAllowance = 0.3;  // [m] and [rad]
 
 bool isBelievable(const geometry::Pose2& pose) {
-  const bool is_finite = pose.translation().allFinite() && std::isfinite(pose.angle());
-  return is_finite && pose.translation().norm() < kFarthest;
+  const bool is_finite = pose.translation().allFinite() && std::isfinite(pose.theta());
+  return is_finite && pose.translation().norm() < kWorldEnd;
 }
 
 }  // namespace
@@ -31,7 +30,7 @@ void OdometryCheck::add(std::int64_t stamp, const geometry::Pose2& pose) {
   if (elapsed <= 0.0) return;
   const geometry::Pose2 step = poses_.back().pose.inverse() * pose;
   const double distance = step.translation().norm();
-  const double turn = std::abs(step.angle());
+  const double turn = std::abs(step.theta());
   poses_.push_back({stamp, pose});
   if (std::max(distance, turn) > kFastest * elapsed + kAllowance) {
     ++summary_.jumps;

@@ -7,7 +7,7 @@ namespace sightline::logs {
 
 namespace {
 
-constexpr double kSecond = 1e9;       // [ns]
+constexpr double kNanoseconds = 1e9;  // of a second
 constexpr std::size_t kStretch = 10;  // messages, over which bursts even out
 constexpr double kFar = 60.0;         // [s]
 constexpr double kShortStep = 0.3;    // periods
@@ -21,7 +21,7 @@ double median(std::vector<double> values) {
 }
 
 double secondsBetween(std::int64_t earlier, std::int64_t later) {
-  return static_cast<double>(later - earlier) / kSecond;
+  return static_cast<double>(later - earlier) / kNanoseconds;
 }
 
 double periodOf(const std::vector<std::int64_t>& stamps) {

@@ -10,8 +10,8 @@ namespace sightline::logs {
 
 namespace {
 
-constexpr double kFarthest = 0.5;  // offset [s]
-constexpr double kGrid = 0.005;    // of offsets [s]
+constexpr double kWidestOffset = 0.5;  // offset [s]
+constexpr double kOffsetStep = 0.005;  // of offsets [s]
 constexpr std::size_t kFewSteps = 20;
 constexpr double kLeastTurn = 0.005;  // RMS of a step [rad], below which turns do not tell
 constexpr std::int64_t kWidestGap = 1'000'000'000;  // of the odometry [ns]
@@ -37,7 +37,7 @@ double costAt(const std::vector<ScanStep>& steps, const Trajectory& odometry, do
   for (const ScanStep& step : steps) {
     const auto wheels = motionOf(odometry, step, offset);
     if (!wheels) continue;
-    const double off = geometry::wrapAngle(wheels->angle() - step.motion.angle());
+    const double off = geometry::wrapAngle(wheels->theta() - step.motion.theta());
     constexpr double kScale = 0.05;  // [rad]
     sum += kScale * kScale * std::log1p(off * off / (kScale * kScale));
     ++count;
@@ -48,16 +48,16 @@ double costAt(const std::vector<ScanStep>& steps, const Trajectory& odometry, do
 
 double meanSquareTurn(const std::vector<ScanStep>& steps) {
   double sum = 0.0;
-  for (const ScanStep& step : steps) sum += std::pow(step.motion.angle(), 2);
+  for (const ScanStep& step : steps) sum += std::pow(step.motion.theta(), 2);
   return sum / static_cast<double>(steps.size());
 }
 
 // Offset at the vertex of the parabola through the least cost and its neighbours.
 void findOffset(const std::vector<ScanStep>& steps, const Trajectory& odometry,
                 StepComparison& result) {
-  const int half = static_cast<int>(kFarthest / kGrid);
+  const int half = static_cast<int>(kWidestOffset / kOffsetStep);
   std::vector<double> costs;
-  for (int i = -half; i <= half; ++i) costs.push_back(costAt(steps, odometry, i * kGrid));
+  for (int i = -half; i <= half; ++i) costs.push_back(costAt(steps, odometry, i * kOffsetStep));
   const auto least = std::min_element(costs.begin(), costs.end());
   if (least == costs.begin() || least == std::prev(costs.end())) return;
   const double before = *std::prev(least);
@@ -67,8 +67,8 @@ void findOffset(const std::vector<ScanStep>& steps, const Trajectory& odometry,
   const double index = static_cast<double>(least - costs.begin()) + 0.5 * (before - after) / bend;
   // The cost is a mean: of a sum of N, a rise by one residual's variance is one sigma.
   result.offset_sigma =
-      kGrid * std::sqrt(2.0 * *least / (bend * static_cast<double>(steps.size())));
-  result.offset = (index - half) * kGrid;
+      kOffsetStep * std::sqrt(2.0 * *least / (bend * static_cast<double>(steps.size())));
+  result.offset = (index - half) * kOffsetStep;
 }
 
 std::optional<double> scaleOf(const std::vector<ScanStep>& steps, const Trajectory& odometry,
@@ -77,7 +77,7 @@ std::optional<double> scaleOf(const std::vector<ScanStep>& steps, const Trajecto
   double by_wheels = 0.0;
   for (const ScanStep& step : steps) {
     const auto wheels = motionOf(odometry, step, offset);
-    if (!wheels || std::abs(step.motion.angle()) > kStraight) continue;
+    if (!wheels || std::abs(step.motion.theta()) > kStraight) continue;
     const Eigen::Vector2d along = wheels->translation();
     by_wheels += along.norm();
     if (along.norm() > 0.0) by_scans += step.motion.translation().dot(along) / along.norm();

@@ -5,13 +5,13 @@
 namespace sightline::logs {
 namespace {
 
-constexpr std::int64_t kStart = 1'000'000'000'000;
-constexpr std::int64_t kPeriod = 100'000'000;
+constexpr std::int64_t kFirst = 1'000'000'000'000;
+constexpr std::int64_t kScanPeriod = 100'000'000;
 
 StampCheck evenStamps(int count) {
   StampCheck check;
   for (int i = 0; i < count; ++i)
-    check.add(kStart + i * kPeriod, kStart + i * kPeriod + kPeriod / 2);
+    check.add(kFirst + i * kScanPeriod, kFirst + i * kScanPeriod + kScanPeriod / 2);
   return check;
 }
 
@@ -27,9 +27,9 @@ TEST(StampCheck, EvenStampsHaveNothingAmiss) {
 
 TEST(StampCheck, CountsWhatIsAmiss) {
   StampCheck check = evenStamps(50);
-  const std::int64_t last = kStart + 49 * kPeriod;
+  const std::int64_t last = kFirst + 49 * kScanPeriod;
   check.add(last, last);                     // repeated
-  check.add(last - kPeriod, last);           // back
+  check.add(last - kScanPeriod, last);       // back
   check.add(0, last);                        // none, and back
   check.add(last + 3600'000'000'000, last);  // an hour ahead, after a gap
   const StampSummary summary = check.summary();
@@ -43,7 +43,7 @@ TEST(StampCheck, CountsWhatIsAmiss) {
 TEST(StampCheck, FindsThePeriodBehindBursts) {
   StampCheck check;
   for (int i = 0; i < 200; ++i) {
-    const std::int64_t flushed = kStart + (i / 4 * 4 + 4) * kPeriod + i % 4 * 1'000'000;
+    const std::int64_t flushed = kFirst + (i / 4 * 4 + 4) * kScanPeriod + i % 4 * 1'000'000;
     check.add(flushed, flushed);
   }
   const StampSummary summary = check.summary();

@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kOneSecond = 1'000'000'000;
 
 // Swerves along x: the heading is a sum of sines, the speed .5 m/s.
 Pose2 truthAt(double time, double turning) {
@@ -22,7 +22,7 @@ Trajectory odometry(double scale, double turning) {
   Trajectory trajectory;
   for (int i = 0; i < 2500; ++i) {
     Pose2 pose = truthAt(0.02 * i, turning);
-    trajectory.push_back({i * kSecond / 50, {pose.x() / scale, pose.y() / scale, pose.angle()}});
+    trajectory.push_back({i * kOneSecond / 50, {pose.x() / scale, pose.y() / scale, pose.theta()}});
   }
   return trajectory;
 }
@@ -38,7 +38,7 @@ std::vector<ScanStep> steps(double late, double turning) {
     const Pose2 step = truthAt(before, turning).inverse() * truthAt(now, turning);
     const auto stamp = [&](double time) { return std::llround(1e9 * (time + late)); };
     result.push_back(
-        {stamp(before), stamp(now), {step.x(), step.y(), step.angle() + noise(random)}});
+        {stamp(before), stamp(now), {step.x(), step.y(), step.theta() + noise(random)}});
   }
   return result;
 }
