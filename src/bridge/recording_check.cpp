@@ -33,6 +33,22 @@ sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& messag
   return scan;
 }
 
+void addPoses(const logs::OdometrySummary& poses, Section& section) {
+  section.facts.push_back(fmt::format("{} poses, {:.1f} m driven, {:.0f} degrees turned",
+                                      poses.poses, poses.distance, degrees(poses.turned)));
+  if (poses.refused > 0) {
+    section.findings.push_back(
+        {Severity::kError, fmt::format("{} of {} poses are no numbers, or more than 1000 km away",
+                                       poses.refused, poses.poses)});
+  }
+  if (poses.jumps > 0) {
+    section.findings.push_back(
+        {Severity::kWarning,
+         fmt::format("{} jumps that no carrier makes, the first at {:.3f} s", poses.jumps,
+                     1e-9 * static_cast<double>(*poses.first_jump))});
+  }
+}
+
 }  // namespace
 
 void RecordingCheck::count(const std::string& topic, const std::string& type) {
@@ -132,29 +148,18 @@ void RecordingCheck::addMounting(const ScannerCheck& scanner, Findings& findings
 Section RecordingCheck::framesSection() const {
   Section section{"Frames", frames_.tree(), frames_.findings()};
   if (section.facts.empty()) section.facts.emplace_back("no transforms");
+  if (!frames_.odometry().poses().empty()) addPoses(frames_.odometry().summary(), section);
   return section;
 }
 
 Section RecordingCheck::wheelsSection(const std::string& topic, const Wheels& wheels) const {
-  const logs::OdometrySummary& poses = wheels.poses.summary();
   const double period = wheels.stamps.summary().period;
   Section section{"Odometry on " + topic,
-                  {fmt::format("{:.1f} Hz, {} to {}, {:.1f} m driven, {:.0f} degrees turned",
-                               period > 0.0 ? 1.0 / period : 0.0, wheels.odom, wheels.base,
-                               poses.distance, degrees(poses.turned))},
+                  {fmt::format("{:.1f} Hz, {} to {}", period > 0.0 ? 1.0 / period : 0.0,
+                               wheels.odom, wheels.base)},
                   {}};
   addStampFindings(wheels.stamps.summary(), section.findings);
-  if (poses.refused > 0) {
-    section.findings.push_back(
-        {Severity::kError, fmt::format("{} of {} poses are no numbers, or more than 1000 km away",
-                                       poses.refused, poses.poses)});
-  }
-  if (poses.jumps > 0) {
-    section.findings.push_back(
-        {Severity::kWarning,
-         fmt::format("{} jumps that no carrier makes, the first at {:.3f} s", poses.jumps,
-                     1e-9 * static_cast<double>(*poses.first_jump))});
-  }
+  addPoses(wheels.poses.summary(), section);
   return section;
 }
 
