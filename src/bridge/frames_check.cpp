@@ -48,13 +48,19 @@ void FramesCheck::takeTransform(geometry_msgs::TransformStamped transform, bool 
   link.stamp = stamp;
   ++link.messages;
   if (!isFinite(transform.transform)) return void(++not_finite_);
-  takeOdometry(transform);
+  if (!is_static) takeOdometry(transform);
   buffer_.setTransform(transform, "recording", is_static);
 }
 
 void FramesCheck::takeOdometry(const geometry_msgs::TransformStamped& transform) {
-  if (transform.header.frame_id != frames_.odom) return;
-  odometry_.add(nanoseconds(transform.header.stamp), toPose2(transform.transform));
+  const bool is_named = transform.header.frame_id == frames_.odom;
+  if (!is_named && transform.child_frame_id != frames_.base) return;
+  logs::OdometryCheck& check = is_named ? odometry_ : of_base_;
+  check.add(nanoseconds(transform.header.stamp), toPose2(transform.transform));
+}
+
+const logs::OdometryCheck& FramesCheck::odometry() const {
+  return odometry_.poses().empty() ? of_base_ : odometry_;
 }
 
 bool FramesCheck::isKnown(const std::string& frame) const {

@@ -33,8 +33,8 @@ class FramesCheck {
   /// Frames by the settings, or those that the recording has in their place.
   std::string base() const;
   std::string odom() const;
-  /// Poses of the base in odom as they were sent.
-  const logs::OdometryCheck& odometry() const { return odometry_; }
+  /// Poses in odom as they were sent, or of the base in its parent where there is no odom.
+  const logs::OdometryCheck& odometry() const;
   /// Mounting of a frame at a stamp [ns]; nothing where the transforms do not reach it.
   std::optional<Mounting> mounting(const std::string& frame, std::int64_t stamp) const;
   /// What is wrong with the tree itself.
@@ -61,6 +61,7 @@ class FramesCheck {
   std::size_t with_slash_ = 0;
   std::size_t not_finite_ = 0;
   logs::OdometryCheck odometry_;
+  logs::OdometryCheck of_base_;
 };
 
 }  // namespace sightline::bridge
