@@ -60,8 +60,8 @@ int runCheck(double seconds) {
   bridge::RecordingCheck check({});
   const Listener listener(node, check);
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::ok() && ros::WallTime::now() < end) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+  for (ros::WallRate rate(200.0); ros::ok() && ros::WallTime::now() < end; rate.sleep()) {
+    ros::spinOnce();
   }
   const bridge::RecordingReport report = check.report({});
   std::fputs(report.text().c_str(), stdout);
