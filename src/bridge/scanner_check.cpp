@@ -123,9 +123,10 @@ void ScannerCheck::addBody(const logs::RangeSummary& summary, Findings& findings
       return degrees(last_.angle_min + static_cast<double>(beam) * last_.angle_increment);
     };
     add(findings, Severity::kWarning,
-        fmt::format("beams {} to {} ({:.1f} to {:.1f} degrees) say the same in every scan: the "
-                    "robot's own body",
-                    sector.first, sector.last, angle(sector.first), angle(sector.last)));
+        fmt::format("beams {} to {} ({:.1f} to {:.1f} degrees) say the same in every scan, within "
+                    "{:.2f} m: the robot's own body",
+                    sector.first, sector.last, angle(sector.first), angle(sector.last),
+                    sector.farthest));
   }
 }
 

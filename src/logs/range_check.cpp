@@ -17,10 +17,21 @@ constexpr double kMissPeak = 10.0;       // as many as in the whole decimetre be
 constexpr std::size_t kFewScans = 20;    // no beam is called constant on less
 constexpr double kConstantSigma = 0.03;  // [m]
 constexpr double kChangingSigma = 0.10;  // [m], of the median beam
+constexpr double kLargestRobot = 1.0;    // [m], from its scanner
+constexpr std::size_t kSectorGap = 5;    // beams
 constexpr double kConstantShare = 0.8;   // of the scans in which the beam has a range
 
 double shareOf(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+// Sectors that are but a few beams apart are one.
+void addBeam(std::size_t beam, double range, std::vector<BeamSector>& sectors) {
+  if (sectors.empty() || beam - sectors.back().last > kSectorGap) {
+    sectors.push_back({beam, beam, range});
+  }
+  sectors.back().last = beam;
+  sectors.back().farthest = std::max(sectors.back().farthest, range);
 }
 
 }  // namespace
@@ -94,16 +105,13 @@ void RangeCheck::findConstantBeams(RangeSummary& summary) const {
   summary.moving = sigmas[sigmas.size() / 2];
   if (scans_ < kFewScans || summary.moving < kChangingSigma) return;
   for (std::size_t i = 0; i < beams_.size(); ++i) {
-    const bool is_constant = shareOf(beams_[i].count, scans_) > kConstantShare &&
-                             beams_[i].sigma() < kConstantSigma &&
-                             beams_[i].mean < summary.largest - kConstantSigma;
-    if (!is_constant) continue;
-    if (!summary.constant.empty() && summary.constant.back().last + 1 == i) {
-      summary.constant.back().last = i;
-    } else {
-      summary.constant.push_back({i, i});
-    }
+    if (isConstant(beams_[i])) addBeam(i, beams_[i].mean, summary.constant);
   }
+}
+
+bool RangeCheck::isConstant(const Beam& beam) const {
+  return shareOf(beam.count, scans_) > kConstantShare && beam.sigma() < kConstantSigma &&
+         beam.mean < kLargestRobot;
 }
 
 RangeSummary RangeCheck::summary() const {

@@ -12,6 +12,7 @@ namespace sightline::logs {
 struct BeamSector {
   std::size_t first = 0;
   std::size_t last = 0;
+  double farthest = 0.0;  ///< mean range of the beam that reaches farthest [m]
 };
 
 /// What the ranges of a scanner are like. Shares in [0, 1], of all readings.
@@ -30,7 +31,8 @@ struct RangeSummary {
   bool misses_as_ranges = false;
   double resolution = 0.0;  ///< step of which all ranges are multiples [m]; 0: none of 1 mm or more
   double moving = 0.0;  ///< standard deviation of the median beam [m]: whether the scene changes
-  /// Beams that say the same in every scan although the scene changes: the robot's own body.
+  /// Beams that say the same in every scan although the scene changes, within a metre: the robot's
+  /// own body.
   std::vector<BeamSector> constant;
 };
 
@@ -55,6 +57,7 @@ class RangeCheck {
   void addReading(float range, double range_min, double range_max, std::size_t beam);
   void findMisses(RangeSummary& summary) const;
   void findConstantBeams(RangeSummary& summary) const;
+  bool isConstant(const Beam& beam) const;
   double resolution() const;
 
   std::size_t scans_ = 0;
