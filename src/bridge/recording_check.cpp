@@ -1,0 +1,192 @@
+#include "sightline/bridge/recording_check.h"
+
+#include <fmt/format.h>
+
+#include "sightline/bridge/pose_conversion.h"
+#include "sightline/bridge/time.h"
+#include "sightline/geometry/angle.h"
+
+namespace sightline::bridge {
+
+namespace {
+
+using geometry::degrees;
+
+constexpr std::size_t kKept = 3000;   // scans whose motion is looked at
+constexpr std::size_t kSamples = 50;  // stamps at which transforms are asked for
+constexpr double kMostTilt = 0.09;    // 5 degrees, of a scanner that keeps level
+
+sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& message) {
+  sensor_msgs::LaserScan scan;
+  scan.header = message.header;
+  scan.angle_min = message.angle_min;
+  scan.angle_max = message.angle_max;
+  scan.angle_increment = message.angle_increment;
+  scan.time_increment = message.time_increment;
+  scan.scan_time = message.scan_time;
+  scan.range_min = message.range_min;
+  scan.range_max = message.range_max;
+  for (const auto& beam : message.ranges) {
+    scan.ranges.push_back(beam.echoes.empty() ? std::numeric_limits<float>::infinity()
+                                              : beam.echoes.front());
+  }
+  return scan;
+}
+
+void addPoses(const logs::OdometrySummary& poses, Section& section) {
+  section.facts.push_back(fmt::format("{} poses, {:.1f} m driven, {:.0f} degrees turned",
+                                      poses.poses, poses.distance, degrees(poses.turned)));
+  if (poses.refused > 0) {
+    section.findings.push_back(
+        {Severity::kError, fmt::format("{} of {} poses are no numbers, or more than 1000 km away",
+                                       poses.refused, poses.poses)});
+  }
+  if (poses.jumps > 0) {
+    section.findings.push_back(
+        {Severity::kWarning,
+         fmt::format("{} jumps that no carrier makes, the first at {:.3f} s", poses.jumps,
+                     1e-9 * static_cast<double>(*poses.first_jump))});
+  }
+}
+
+}  // namespace
+
+void RecordingCheck::count(const std::string& topic, const std::string& type) {
+  Topic& counted = topics_[topic];
+  counted.type = type;
+  ++counted.messages;
+}
+
+void RecordingCheck::take(const std::string& topic, const sensor_msgs::LaserScan& message,
+                          std::int64_t arrival) {
+  scanners_[topic].take(message, arrival);
+  const bool is_first = kept_.empty() || kept_.front().header.frame_id == message.header.frame_id;
+  if (kept_.size() < kKept && is_first) kept_.push_back(message);
+}
+
+void RecordingCheck::take(const std::string& topic, const sensor_msgs::MultiEchoLaserScan& message,
+                          std::int64_t arrival) {
+  take(topic, firstEchoes(message), arrival);
+}
+
+void RecordingCheck::take(const std::string& topic, const nav_msgs::Odometry& message,
+                          std::int64_t arrival) {
+  Wheels& wheels = wheels_[topic];
+  const std::int64_t stamp = nanoseconds(message.header.stamp);
+  wheels.stamps.add(stamp, arrival);
+  wheels.poses.add(stamp, toPose2(message.pose.pose));
+  wheels.odom = withoutSlash(message.header.frame_id);
+  wheels.base = withoutSlash(message.child_frame_id);
+}
+
+void RecordingCheck::take(const std::string& topic, const sensor_msgs::Imu& message,
+                          std::int64_t arrival) {
+  imus_[topic].add(nanoseconds(message.header.stamp), arrival);
+}
+
+void RecordingCheck::take(const std::string& topic, const tf2_msgs::TFMessage& message) {
+  frames_.take(message, withoutSlash(topic) == "tf_static");
+}
+
+Section RecordingCheck::topicsSection() const {
+  Section section{"Topics", {}, {}};
+  for (const auto& [name, topic] : topics_) {
+    section.facts.push_back(fmt::format("{:<28} {:<32} {:>7}", name, topic.type, topic.messages));
+  }
+  if (scanners_.empty()) {
+    section.findings.push_back(
+        {Severity::kError, "no scans: nothing of type sensor_msgs/LaserScan, MultiEchoLaserScan"});
+  }
+  return section;
+}
+
+Section RecordingCheck::scannerSection(const std::string& topic,
+                                       const ScannerCheck& scanner) const {
+  Section section{"Scans on " + topic, {scanner.description()}, scanner.findings()};
+  addMounting(scanner, section.findings);
+  return section;
+}
+
+void RecordingCheck::addMounting(const ScannerCheck& scanner, Findings& findings) const {
+  const auto& stamps = scanner.stamps().stamps();
+  const std::size_t step = std::max<std::size_t>(1, stamps.size() / kSamples);
+  std::size_t asked = 0;
+  std::size_t reached = 0;
+  std::optional<Mounting> mounting;
+  for (std::size_t i = 0; i < stamps.size(); i += step) {
+    ++asked;
+    const auto at = frames_.mounting(scanner.frame(), stamps[i]);
+    reached += at.has_value();
+    if (at) mounting = at;
+  }
+  if (!mounting) {
+    findings.push_back({Severity::kWarning,
+                        fmt::format("no transform from {} to {}: give `mountings` in the settings, "
+                                    "or the scanner is taken for the base",
+                                    frames_.base(), scanner.frame())});
+    return;
+  }
+  const geometry::Pose2& pose = mounting->T_base_sensor;
+  findings.push_back(
+      {Severity::kNote,
+       fmt::format("mounted at x {:.3f} m, y {:.3f} m, turned by {:.1f} degrees{}", pose.x(),
+                   pose.y(), degrees(pose.theta()), mounting->upside_down ? ", upside down" : "")});
+  if (mounting->tilt > kMostTilt) {
+    findings.push_back(
+        {Severity::kError, fmt::format("the scanner's plane is {:.0f} degrees from level: is {} an "
+                                       "optical frame?",
+                                       degrees(mounting->tilt), scanner.frame())});
+  }
+  if (reached < asked) {
+    findings.push_back(
+        {Severity::kWarning,
+         fmt::format("transforms to {} are missing at {:.0f} % of the stamps", scanner.frame(),
+                     100.0 * static_cast<double>(asked - reached) / static_cast<double>(asked))});
+  }
+}
+
+Section RecordingCheck::framesSection() const {
+  Section section{"Frames", frames_.tree(), frames_.findings()};
+  if (section.facts.empty()) section.facts.emplace_back("no transforms");
+  if (!frames_.odometry().poses().empty()) addPoses(frames_.odometry().summary(), section);
+  return section;
+}
+
+Section RecordingCheck::wheelsSection(const std::string& topic, const Wheels& wheels) const {
+  const double period = wheels.stamps.summary().period;
+  Section section{"Odometry on " + topic,
+                  {fmt::format("{:.1f} Hz, {} to {}", period > 0.0 ? 1.0 / period : 0.0,
+                               wheels.odom, wheels.base)},
+                  {}};
+  addStampFindings(wheels.stamps.summary(), section.findings);
+  addPoses(wheels.poses.summary(), section);
+  return section;
+}
+
+const logs::Trajectory* RecordingCheck::odometry() const {
+  if (frames_.odometry().poses().size() > 1) return &frames_.odometry().poses();
+  for (const auto& [topic, wheels] : wheels_) {
+    if (wheels.poses.poses().size() > 1) return &wheels.poses.poses();
+  }
+  return nullptr;
+}
+
+RecordingReport RecordingCheck::report(const std::vector<std::string>& source) const {
+  RecordingReport report;
+  report.sections.push_back(topicsSection());
+  for (const auto& [topic, scanner] : scanners_) {
+    report.sections.push_back(scannerSection(topic, scanner));
+  }
+  report.sections.push_back(framesSection());
+  for (const auto& [topic, wheels] : wheels_) {
+    report.sections.push_back(wheelsSection(topic, wheels));
+  }
+  const Motion motion = motionOfScans();
+  report.sections.push_back(motionSection(motion));
+  report.next = nextSteps(source);
+  report.settings = settings();
+  report.figure = figure(motion);
+  return report;
+}
+
+}  // namespace sightline::bridge

@@ -1,0 +1,44 @@
+#include "sightline/logs/odometry_check.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace sightline::logs {
+namespace {
+
+using geometry::Pose2;
+
+// Drives ahead by 1 m/s at 10 Hz.
+OdometryCheck drive(int poses) {
+  OdometryCheck check;
+  for (int i = 0; i < poses; ++i) check.add(i * 100'000'000L, {0.1 * i, 0.0, 0.0});
+  return check;
+}
+
+TEST(OdometryCheck, AddsUpWhatWasDriven) {
+  const OdometrySummary summary = drive(51).summary();
+  EXPECT_EQ(summary.poses, 51U);
+  EXPECT_NEAR(summary.distance, 5.0, 1e-9);
+  EXPECT_EQ(summary.jumps, 0U);
+}
+
+TEST(OdometryCheck, CountsAJumpOnceAndLeavesItOut) {
+  OdometryCheck check = drive(51);
+  check.add(5'100'000'000L, {0.0, 0.0, 0.0});
+  check.add(5'200'000'000L, {0.1, 0.0, 0.0});
+  EXPECT_EQ(check.summary().jumps, 1U);
+  EXPECT_EQ(check.summary().first_jump, 5'100'000'000L);
+  EXPECT_NEAR(check.summary().distance, 5.1, 1e-9);
+}
+
+TEST(OdometryCheck, RefusesWhatIsNoPose) {
+  OdometryCheck check = drive(10);
+  check.add(2'000'000'000L, {1e256, 0.0, 0.0});
+  check.add(2'100'000'000L, {std::nan(""), 0.0, 0.0});
+  EXPECT_EQ(check.summary().refused, 2U);
+  EXPECT_EQ(check.poses().size(), 10U);
+}
+
+}  // namespace
+}  // namespace sightline::logs
