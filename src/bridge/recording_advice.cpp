@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/recording_check.h"
+#include "sightline/geometry/angle.h"
 
 namespace sightline::bridge {
 
@@ -76,19 +78,42 @@ bool RecordingCheck::isMounted(const ScannerCheck& scanner) const {
   return frames_.mounting(scanner.frame(), stamps[stamps.size() / 2]).has_value();
 }
 
+std::string RecordingCheck::bodyOf(const ScannerCheck& scanner) const {
+  const auto& stamps = scanner.stamps().stamps();
+  const auto mounting = frames_.mounting(scanner.frame(), stamps[stamps.size() / 2]);
+  std::vector<std::string> angles;
+  for (const logs::BeamSector& sector : scanner.ranges().summary().constant) {
+    // A scanner upside down turns the other way.
+    const double sense = mounting && mounting->upside_down ? -1.0 : 1.0;
+    const double yaw = mounting ? mounting->T_base_sensor.theta() : 0.0;
+    double from = yaw + sense * scanner.angleOf(static_cast<double>(sector.first) - 0.5);
+    double to = yaw + sense * scanner.angleOf(static_cast<double>(sector.last) + 0.5);
+    if (from > to) std::swap(from, to);
+    angles.push_back(
+        fmt::format("{:.3f}, {:.3f}", geometry::wrapAngle(from), geometry::wrapAngle(to)));
+  }
+  if (angles.empty()) return "";
+  return fmt::format("  {}: [{}]\n", withoutSlash(scanner.frame()), fmt::join(angles, ", "));
+}
+
 std::string RecordingCheck::settings() const {
   std::vector<std::string> topics;
   std::string mountings;
+  std::string bodies;
   for (const auto& [topic, scanner] : scanners_) {
     topics.push_back(topic);
+    bodies += bodyOf(scanner);
     if (!isMounted(scanner)) {
-      mountings += fmt::format("  {}: [0.0, 0.0, 0.0]\n", scanner.frame());
+      mountings += fmt::format("  {}: [0.0, 0.0, 0.0]\n", withoutSlash(scanner.frame()));
     }
   }
   std::string text = fmt::format("scans: [{}]\nframes: {{map: map, odom: {}, base: {}}}\n",
                                  fmt::join(topics, ", "), frames_.odom(), frames_.base());
   if (!mountings.empty()) {
     text += "mountings:  # x, y [m], yaw [rad] on the base: to be measured\n" + mountings;
+  }
+  if (!bodies.empty()) {
+    text += "body:  # where scanners see the robot itself, on the base [rad]\n" + bodies;
   }
   if (frames_.odometry().poses().empty() && !wheels_.empty()) {
     text += fmt::format("odometry_topic: {}\n", wheels_.begin()->first);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "sightline/bridge/pose_conversion.h"
+#include "sightline/bridge/scan_conversion.h"
 #include "sightline/bridge/time.h"
 #include "sightline/geometry/angle.h"
 
@@ -15,23 +16,6 @@ using geometry::degrees;
 constexpr std::size_t kKept = 3000;   // scans whose motion is looked at
 constexpr std::size_t kSamples = 50;  // stamps at which transforms are asked for
 constexpr double kMostTilt = 0.09;    // 5 degrees, of a scanner that keeps level
-
-sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& message) {
-  sensor_msgs::LaserScan scan;
-  scan.header = message.header;
-  scan.angle_min = message.angle_min;
-  scan.angle_max = message.angle_max;
-  scan.angle_increment = message.angle_increment;
-  scan.time_increment = message.time_increment;
-  scan.scan_time = message.scan_time;
-  scan.range_min = message.range_min;
-  scan.range_max = message.range_max;
-  for (const auto& beam : message.ranges) {
-    scan.ranges.push_back(beam.echoes.empty() ? std::numeric_limits<float>::infinity()
-                                              : beam.echoes.front());
-  }
-  return scan;
-}
 
 void addPoses(const logs::OdometrySummary& poses, Section& section) {
   section.facts.push_back(fmt::format("{} poses, {:.1f} m driven, {:.0f} degrees turned",

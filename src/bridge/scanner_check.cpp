@@ -120,7 +120,7 @@ void ScannerCheck::addRangeFindings(Findings& findings) const {
 void ScannerCheck::addBody(const logs::RangeSummary& summary, Findings& findings) const {
   for (const logs::BeamSector& sector : summary.constant) {
     const auto angle = [&](std::size_t beam) {
-      return degrees(last_.angle_min + static_cast<double>(beam) * last_.angle_increment);
+      return degrees(angleOf(static_cast<double>(beam)));
     };
     add(findings, Severity::kWarning,
         fmt::format("beams {} to {} ({:.1f} to {:.1f} degrees) say the same in every scan, within "

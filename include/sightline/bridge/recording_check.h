@@ -70,6 +70,8 @@ class RecordingCheck {
   const logs::Trajectory* odometry() const;
   bool isMounted(const ScannerCheck& scanner) const;
   std::string settings() const;
+  /// Entry of the setting `body`; empty where the scanner does not see its robot.
+  std::string bodyOf(const ScannerCheck& scanner) const;
   std::vector<std::string> nextSteps(const std::vector<std::string>& source) const;
   plot::Figure figure(const Motion& motion) const;
 

@@ -19,6 +19,8 @@ class ScannerCheck {
   Findings findings() const;
   /// One line: rate, beams, field of view, limits.
   std::string description() const;
+  /// Direction of a beam in the scanner's frame [rad].
+  double angleOf(double beam) const { return last_.angle_min + beam * last_.angle_increment; }
   /// Frame of the last scan, as it is written there.
   const std::string& frame() const { return last_.header.frame_id; }
   const logs::StampCheck& stamps() const { return stamps_; }
