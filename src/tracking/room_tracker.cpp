@@ -101,7 +101,10 @@ bool RoomTracker::setRoom(const std::string& name) {
 void RoomTracker::replaceMap(world::RoomMap map) {
   context_.map = std::move(map);
   auto before = method_;
-  ifStarted(before, [&](auto& tracker) { setPose(tracker.pose()); });
+  ifStarted(before, [&](auto& tracker) {
+    const std::optional<geometry::UncertainPose2> pose = tracker.pose();
+    if (pose) setPose(*pose);
+  });
 }
 
 void RoomTracker::restartClock() {
