@@ -181,6 +181,7 @@ void ArcFinder::observe(const scan::Scan& scan, const BeamArray& beams, const Ru
         scan.ranges()[beams.beam[i] % scan.beams()] * std::abs(scan.geometry()->angleIncrement());
     observations_.returns.push_back(of);
   }
+  if (run.size() == beams.revolution) return;  // nothing passes by what is all around
   observeTangent(scan, beams.beam[run.first] % scan.beams(), Side::kStart);
   observeTangent(scan, beams.beam[run.end - 1] % scan.beams(), Side::kEnd);
 }

@@ -20,6 +20,8 @@ struct CornerConstants {
   // A crossing this much less certain (variance) than where the beams say the wall ends proves
   // nothing: that goes for lines one of which is hardly known.
   double vaguer = 9.0;
+  // Mean square of the returns that are lost with a stray one near the end, about.
+  double lost_squared = 4.0;
   // Beams between two walls that meet: few, as all that are not lost hit one or the other.
   std::size_t most_between = 5;
 };
@@ -114,6 +116,9 @@ EndPoint EndPoints::edge(const Piece& piece, std::size_t last, Side side) const 
   point.position += 0.5 * step;
   // Halfway between two beams that err by themselves.
   point.variance += step * step / 12.0 - 0.5 * on.jitter;
+  // Where returns go astray, so may the last one, or the last but one and the last with it.
+  const double astray = 1.0 - piece.beams / static_cast<double>(piece.size());
+  point.variance += kCorner.lost_squared * std::max(0.0, astray) * step * step;
   const bool behind = scan_.kinds()[telling] == scan::ReturnKind::kNothing ||
                       (scan_.isValid(telling) && scan_.ranges()[telling] > past.range);
   point.kind = behind ? EndKind::kOccludingEdge : EndKind::kOccluded;

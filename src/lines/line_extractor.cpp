@@ -49,6 +49,7 @@ const std::vector<geometry::LineSegment>& LineExtractor::extract(const scan::Sca
   findPieces(scan);
   dropFragments();
   placeBreaks();
+  placeBreakAtSeam();
   refinePieces();
   splitPieces();
   extendBehindSmallThings();
@@ -141,17 +142,19 @@ void LineExtractor::placeBreaks() {
     breaks.extendBackward(pieces_[i + 1], pieces_[i].end);
     breaks.separate(pieces_[i], pieces_[i + 1]);
   }
-  if (pieces_.size() < 2) return;
-  if (beams_.size > beams_.revolution) {
-    // The first piece follows on the last one, a revolution on.
-    std::rotate(pieces_.begin(), pieces_.begin() + 1, pieces_.end());
-    Piece& last = pieces_[pieces_.size() - 2];
-    Piece& first = pieces_.back();
-    first = shifted(first, beams_.revolution);
-    breaks.extendForward(last, first.first);
-    breaks.extendBackward(first, last.end);
-    breaks.separate(last, first);
-  }
+}
+
+void LineExtractor::placeBreakAtSeam() {
+  if (pieces_.size() < 2 || beams_.size == beams_.revolution) return;
+  const BreakPoints breaks(beams_, config_);
+  // The first piece follows on the last one, a revolution on.
+  std::rotate(pieces_.begin(), pieces_.begin() + 1, pieces_.end());
+  Piece& last = pieces_[pieces_.size() - 2];
+  Piece& first = pieces_.back();
+  first = shifted(first, beams_.revolution);
+  breaks.extendForward(last, first.first);
+  breaks.extendBackward(first, last.end);
+  breaks.separate(last, first);
 }
 
 void LineExtractor::mergePieces() {

@@ -25,6 +25,7 @@ constexpr RefineConstants kRefine{};
 struct BlockConstants {
   std::size_t most = 16;
   std::size_t fewest = 4;
+  double chance = 1.5;  // standard deviations of χ² over its degrees of freedom
 };
 constexpr BlockConstants kBlocks{};
 
@@ -93,7 +94,7 @@ bool isWall(const Piece& piece, const LineExtractorConfig& config) {
 SIGHTLINE_VECTOR_CLONES
 double unevenness(const BeamArray& beams, double gate_squared, const Piece& piece) {
   const double freedom = piece.beams - 2.0;
-  const double alone = piece.chi_square / freedom - std::sqrt(2.0 / freedom);
+  const double alone = piece.chi_square / freedom - kBlocks.chance * std::sqrt(2.0 / freedom);
   const std::size_t block = std::max(kBlocks.fewest, piece.size() / kBlocks.most);
   const std::size_t blocks = piece.size() / block;
   if (blocks < 4) return std::max(1.0, alone);
@@ -113,7 +114,7 @@ double unevenness(const BeamArray& beams, double gate_squared, const Piece& piec
     if (total > 0.0) shared += sum(distance) * sum(distance) / total;
   }
   const double of_blocks = static_cast<double>(blocks) - 2.0;
-  return std::max({1.0, alone, shared / of_blocks - std::sqrt(2.0 / of_blocks)});
+  return std::max({1.0, alone, shared / of_blocks - kBlocks.chance * std::sqrt(2.0 / of_blocks)});
 }
 
 double extent(const BeamArray& beams, const Piece& piece) {

@@ -139,11 +139,17 @@ bool Splitting::settle(Piece& before, Piece& after) {
   return true;
 }
 
+// Whether the pieces follow on each other and their lines meet there: one behind the other has no
+// corner with it.
 bool Splitting::adjoin(const Piece& before, const Piece& after) const {
   if (after.first - before.end > kSplitting.most_between) return false;
   const double length = positionOn(beams_, after.first, before.line) -
                         positionOn(beams_, before.end - 1, before.line);
-  return gap_.mayBridge(beams_, before.line, before.end - 1, after.first, length);
+  const auto reach =
+      static_cast<float>(kSplitting.stray_gate * kSplitting.stray_gate * gate_squared_);
+  return gap_.mayBridge(beams_, before.line, before.end - 1, after.first, length) &&
+         isWithin(beams_, after.first, before.line, reach) &&
+         isWithin(beams_, before.end - 1, after.line, reach);
 }
 
 // Through the place where two pieces meet, halfway between their directions.

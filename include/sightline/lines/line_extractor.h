@@ -43,6 +43,7 @@ class LineExtractor {
   void mergePieces();
   std::size_t mergeWithOneFrom(std::size_t first, const Merging& merging, Piece& wall) const;
   void placeBreaks();
+  void placeBreakAtSeam();
   void extendBehindSmallThings();
   bool isSmall(const Piece& piece) const;
   void dropHidden();
