@@ -15,15 +15,15 @@ namespace sightline::logs {
 
 namespace {
 
-constexpr std::int64_t kSecondOfStamps = 1'000'000'000;
+constexpr std::int64_t kOneSecond = 1'000'000'000;
 
 constexpr struct {
   // Steps beyond which a clock was set [ns].
-  std::int64_t back = 10 * kSecondOfStamps;
-  std::int64_t ahead = 86'400 * kSecondOfStamps;
+  std::int64_t back = 10 * kOneSecond;
+  std::int64_t ahead = 86'400 * kOneSecond;
   // Time between two scans of which the stamps do not tell it: where the clock was set, and at most
   // where several share a stamp [ns].
-  std::int64_t after_break = kSecondOfStamps / 5;
+  std::int64_t after_break = kOneSecond / 5;
   double widest = 1e9;
   // A pose is at a stamp that is no further off [ns].
   std::int64_t tolerance = 1'000'000;
@@ -77,8 +77,8 @@ double spacingOf(const std::vector<Pool>& pools, std::size_t i) {
 
 void shiftAfter1970(std::vector<std::int64_t>& stamps) {
   const std::int64_t first = stamps.front();
-  if (first >= kSecondOfStamps) return;
-  for (std::int64_t& stamp : stamps) stamp += kSecondOfStamps - first;
+  if (first >= kOneSecond) return;
+  for (std::int64_t& stamp : stamps) stamp += kOneSecond - first;
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ std::size_t countNotRising(const CarmenLog& log) {
 }
 
 bool hasUsableStamps(const CarmenLog& log) {
-  return countNotRising(log) == 0 && (log.scans.empty() || log.scans.front().stamp >= kSecondOfStamps);
+  return countNotRising(log) == 0 && (log.scans.empty() || log.scans.front().stamp >= kOneSecond);
 }
 
 std::vector<std::int64_t> risingStamps(const CarmenLog& log) {

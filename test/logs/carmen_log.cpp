@@ -95,8 +95,8 @@ TEST(ParseCarmenLine, SaysFileLineAndKindOfWhatIsWrong) {
             "a.clf:12: ODOM: theta: expected a number, found 'x'");
   EXPECT_EQ(reason("ODOM 1 inf 0 0 0 0 17 host 17"),
             "a.clf:12: ODOM: y: expected a finite number, found 'inf'");
-  EXPECT_EQ(reason("ODOM 1 2 3 0 0 0 0.0 host 17"),
-            "a.clf:12: ODOM: ipc_time: 0.000000000 is no time after 1970");
+  EXPECT_EQ(reason("ODOM 1 2 3 0 0 0 5e9 host 17"),
+            "a.clf:12: ODOM: ipc_time: 5000000000.000000000 is no time that a bag can hold");
   EXPECT_EQ(reason("FLASER 1 2.5 0 0 0 0 0 0 17 host 17"),
             "a.clf:12: FLASER: num_readings: 1 beams make no scan");
   EXPECT_EQ(reason("FLASER 4 1 2 3"), "a.clf:12: FLASER: the line ends where a reading should be");
@@ -109,14 +109,22 @@ TEST(ParseCarmenLine, SaysFileLineAndKindOfWhatIsWrong) {
             "a.clf:12: ROBOTLASER1: num_remissions: 3 for 2 readings");
 }
 
-TEST(ReadCarmenLog, SortsByStampAndCountsWhatItDoesNotRead) {
+TEST(ReadCarmenLog, TakesStampsOfZeroAndBelow) {
+  const CarmenLog log = logOf(flaser(180, "0.0") + flaser(180, "-17.25"));
+  ASSERT_EQ(log.scans.size(), 2U);
+  EXPECT_EQ(log.scans[0].stamp, 0);
+  EXPECT_EQ(log.scans[1].stamp, -17250000000);
+}
+
+TEST(ReadCarmenLog, KeepsTheOrderOfTheLinesAndCountsWhatItDoesNotRead) {
   const CarmenLog log = logOf("# CARMEN Logfile\nPARAM a 1 17 h 17\n" + flaser(180, "12.5") +
                               "SYNC x 12 h 12\nODOM 2 0 0 0 0 0 11.9 h 0\n" + flaser(180, "12.25") +
                               "ODOM 1 0 0 0 0 0 11.8 h 0\nSYNC x 12 h 12\n\n");
   ASSERT_EQ(log.scans.size(), 2U);
-  EXPECT_EQ(log.scans[0].stamp, 12250000000);
+  EXPECT_EQ(log.scans[0].stamp, 12500000000);
+  EXPECT_EQ(log.scans[1].stamp, 12250000000);
   ASSERT_EQ(log.odometry.size(), 2U);
-  EXPECT_EQ(log.odometry[0].robot.x(), 1.0);
+  EXPECT_EQ(log.odometry[0].robot.x(), 2.0);
   EXPECT_THAT(log.parameters, ElementsAre(Pair("a", "1")));
   EXPECT_THAT(log.skipped, ElementsAre(Pair("SYNC", 2U)));
   EXPECT_THAT(log.cut_off, IsEmpty());

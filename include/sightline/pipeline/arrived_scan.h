@@ -19,7 +19,7 @@ struct ArrivedScan {
   std::int64_t arrival = 0;               ///< by the feed's clock [ns]
   bool begins_new_time = false;           ///< the first one since the clock was set
   /// Time since the scan before, where the stamps are those of arrival and do not tell it.
-  std::optional<scan::ElapsedTime> elapsed;
+  std::optional<scan::ElapsedTime> elapsed = {};
 
   /// The frame whose motion transforms know: the head's mount, or the sensor itself.
   const std::string& carriedFrame() const { return head ? head->mount_frame : scan.frame; }

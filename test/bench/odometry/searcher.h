@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "freiburg.h"
+#include "scan_log.h"
 #include "sightline/dead_reckoning/angle_histogram.h"
 #include "sightline/dead_reckoning/histogram_matcher.h"
 #include "sightline/dead_reckoning/surface_points.h"
