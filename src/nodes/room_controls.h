@@ -6,6 +6,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
 
 #include "sightline/InflateUncertainty.h"
 #include "sightline/RoomTrackerConfig.h"
@@ -28,6 +29,7 @@ class RoomControls {
  private:
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   bool onSetRoom(SetRoom::Request& request, SetRoom::Response& response);
+  bool onRelocalise(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onInflate(InflateUncertainty::Request& request, InflateUncertainty::Response& response);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -39,6 +41,7 @@ class RoomControls {
   dynamic_reconfigure::Server<RoomTrackerConfig> reconfigure_;
   ros::Subscriber initial_pose_subscriber_;
   ros::ServiceServer set_room_server_;
+  ros::ServiceServer relocalise_server_;
   ros::ServiceServer inflate_server_;
 };
 

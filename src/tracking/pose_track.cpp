@@ -176,7 +176,12 @@ PoseTrack::Explanation PoseTrack::explain(const TrackingContext& context,
   };
   const Explanation taken = best;
   const PoseFilter close = filter_.limited(kPriors.close_position, kPriors.close_heading);
-  consider(explainFrom(filter_, close, context, input, sweep), kPriors.close_walls);
+  Explanation by_close_walls = explainFrom(filter_, close, context, input, sweep);
+  for (std::size_t i = 0; i < taken.walls.size(); ++i) {
+    by_close_walls.walls[i].gate = taken.walls[i].gate;  // what the prediction leaves open
+    by_close_walls.walls[i].beams_in_gate = taken.walls[i].beams_in_gate;
+  }
+  consider(std::move(by_close_walls), kPriors.close_walls);
   consider(withoutWalls(taken, context, input), kPriors.no_walls);
   if (coasting_)
     consider(explainFrom(*coasting_, *coasting_, context, input, sweep), kPriors.coasting);
