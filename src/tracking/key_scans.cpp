@@ -36,7 +36,8 @@ void KeyScans::add(const TrackerInput& input) {
   if (scans_.size() > kKeys.most) scans_.pop_front();
 }
 
-double KeyScans::logLikelihoodBefore(const world::RoomMap& map, const Pose2& T_map_base) const {
+double KeyScans::logLikelihoodBefore(const world::RoomMap& map, const Pose2& T_map_base,
+                                     double usual_hits) const {
   double sum = 0.0;
   for (std::size_t i = 0; i + 1 < scans_.size(); ++i) {
     const KeyScan& key = scans_[i];
@@ -49,7 +50,7 @@ double KeyScans::logLikelihoodBefore(const world::RoomMap& map, const Pose2& T_m
                                world::RoomView::Doors::kOpen);
     const std::size_t stride = std::max<std::size_t>(1, key.scan.beams() / kKeys.most_beams);
     sum += logLikelihood(scanAgreement(key.scan, T_map_sensor, view, kKeys.tolerance, stride),
-                         *key.scan.geometry());
+                         *key.scan.geometry(), usual_hits);
   }
   return sum;
 }

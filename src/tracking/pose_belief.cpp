@@ -30,7 +30,7 @@ void PoseBelief::take(const ScanAgreement& agreement, const scan::ScanGeometry& 
 }
 
 void PoseBelief::compareHits(const ScanAgreement& agreement) {
-  const auto judged = static_cast<double>(agreement.evidence() + agreement.occluded);
+  const auto judged = static_cast<double>(agreement.judged());
   is_surprised_ = false;
   if (judged < 20.0) return;
   const double hits = static_cast<double>(agreement.on_wall) / judged;
@@ -44,7 +44,7 @@ double PoseBelief::probability() const {
 }
 
 bool isSound(const ScanAgreement& agreement) {
-  const auto judged = static_cast<double>(agreement.evidence() + agreement.occluded);
+  const auto judged = static_cast<double>(agreement.judged());
   if (judged == 0.0) return false;
   return static_cast<double>(agreement.beyond) < kBelief.most_through * judged &&
          static_cast<double>(agreement.on_wall) >= kBelief.least_hits * judged;

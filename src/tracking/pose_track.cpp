@@ -45,9 +45,11 @@ void applyWalls(const TrackingContext& context, PoseFilter& filter,
   for (const std::size_t i : byBeams(walls)) {
     WallUpdate& wall = walls[i];
     if (!wall.fit) continue;
-    const auto& expected = context.map.wall({wall.room, wall.wall}).segment;
+    const world::WallIndex index{wall.room, wall.wall};
+    const geometry::Segment& expected = context.map.wall(index).segment;
     const auto innovation =
-        filter.innovation(wall.fit->line, expected.line(), wall.fit->motion_jacobian);
+        filter.innovation(wall.fit->line, expected.line(), wall.fit->motion_jacobian,
+                          WallError(index, expected, context.config.wall));
     wall.innovation = WallInnovation{innovation.value, innovation.nis};
     if (innovation.nis <= context.config.wall.max_nis) {
       filter.update(innovation);
@@ -60,7 +62,7 @@ void applyWalls(const TrackingContext& context, PoseFilter& filter,
 // Log odds of what explains a scan beside the prediction.
 constexpr struct {
   double coasting = -2.0;
-  double slip = -4.6;
+  double slip = -6.0;
   double no_walls = -2.0;
   double close_walls = -1.0;
   // What counts as close [m, rad], one sigma.
@@ -68,8 +70,9 @@ constexpr struct {
   double close_heading = 0.015;
   // Beams that meet walls of the map and yet belong to no wall that corrects the pose: more than
   // this share of them is not as predicted, and costs this log odds where it is all of them.
-  double most_unused = 0.3;
+  double most_unused = 0.15;
   double unused = -8.0;
+  double learning = 0.1;  // of how many beams meet walls, by a scan
 } kPriors;
 
 double unusedShare(const PoseTrack::Explanation& explanation) {
@@ -138,7 +141,8 @@ void PoseTrack::judge(const TrackingContext& context, const TrackerInput& input,
   explanation.agreement =
       agreementAt(context, input, explanation.filter.pose().mean, memory_.room(),
                   context.config.neighbours ? Doors::kOpen : Doors::kIgnored);
-  explanation.log_posterior = logLikelihood(explanation.agreement, *input.scan.geometry());
+  explanation.log_posterior =
+      logLikelihood(explanation.agreement, *input.scan.geometry(), usual_hits_);
   for (const WallUpdate& wall : explanation.walls) {
     if (!wall.innovation) continue;
     explanation.log_posterior -= 0.5 * std::min(wall.innovation->nis, context.config.wall.max_nis);
@@ -152,7 +156,8 @@ PoseTrack::Explanation PoseTrack::withoutWalls(const Explanation& taken,
                                                const TrackerInput& input) const {
   Explanation none{filter_, taken.walls, {}, 0.0};
   judge(context, input, none);
-  none.log_posterior = logLikelihood(none.agreement, *input.scan.geometry()) + kPriors.unused;
+  none.log_posterior =
+      logLikelihood(none.agreement, *input.scan.geometry(), usual_hits_) + kPriors.unused;
   for (WallUpdate& wall : none.walls) {
     if (wall.accepted()) wall.refusal = WallRefusal::kOutsideGate;
   }
@@ -171,7 +176,12 @@ PoseTrack::Explanation PoseTrack::explain(const TrackingContext& context,
   };
   const Explanation taken = best;
   const PoseFilter close = filter_.limited(kPriors.close_position, kPriors.close_heading);
-  consider(explainFrom(filter_, close, context, input, sweep), kPriors.close_walls);
+  Explanation by_close_walls = explainFrom(filter_, close, context, input, sweep);
+  for (std::size_t i = 0; i < taken.walls.size(); ++i) {
+    by_close_walls.walls[i].gate = taken.walls[i].gate;  // what the prediction leaves open
+    by_close_walls.walls[i].beams_in_gate = taken.walls[i].beams_in_gate;
+  }
+  consider(std::move(by_close_walls), kPriors.close_walls);
   consider(withoutWalls(taken, context, input), kPriors.no_walls);
   if (coasting_)
     consider(explainFrom(*coasting_, *coasting_, context, input, sweep), kPriors.coasting);
@@ -181,9 +191,17 @@ PoseTrack::Explanation PoseTrack::explain(const TrackingContext& context,
   return best;
 }
 
+void PoseTrack::learnHits(const ScanAgreement& agreement) {
+  if (agreement.judged() < kLeastEvidence) return;
+  const double hits =
+      static_cast<double>(agreement.on_wall) / static_cast<double>(agreement.judged());
+  usual_hits_ += kPriors.learning * (hits - usual_hits_);
+}
+
 TrackerUpdate PoseTrack::commit(const TrackingContext& context, const TrackerInput& input,
                                 Explanation explanation) {
   filter_ = explanation.filter;
+  learnHits(explanation.agreement);
   if (before_) last_motion_ = geometry::between(*before_, pose().mean);
   before_ = pose().mean;
   TrackerUpdate update = memory_.report(context, input, pose(), explanation.agreement);

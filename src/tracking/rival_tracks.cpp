@@ -22,7 +22,7 @@ constexpr struct {
   // Log odds: a pose given by hand is wrong once in a hundred times; a robot that was tracked is
   // pushed or turned more often than it is carried away.
   double wrong_start = -4.6;
-  double pushed = -4.6;
+  double pushed = -6.0;
   double carried = -9.2;
   double push_reach = 0.75;   // [m]
   double slip = 0.3;          // [m]
@@ -114,7 +114,7 @@ void RivalTracks::look(const TrackingContext& context, const TrackerInput& input
 void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {
   for (Hypothesis& hypothesis : hypotheses_) {
     const double log_likelihood =
-        logLikelihood(hypothesis.update.agreement, *input.scan.geometry());
+        logLikelihood(hypothesis.update.agreement, *input.scan.geometry(), usual_hits_);
     hypothesis.log_posterior += log_likelihood - (is_new_key ? 0.0 : hypothesis.last_key);
     hypothesis.last_key = log_likelihood;
   }
@@ -131,11 +131,12 @@ void RivalTracks::search(const TrackingContext& context, const TrackerInput& inp
     const auto start =
         uncertain(candidate.T_map_base, kRivals.found_position, kRivals.found_heading);
     Hypothesis rival{PoseTrack(context, start, candidate.room), PoseBelief(0.0), 0.0, 0.0, {}};
+    rival.track.setUsualHits(usual_hits_);
     const auto update = rival.track.update(context, input);
     if (!update) continue;
     rival.update = *update;
     rival.belief.take(update->agreement, *input.scan.geometry(), update->is_outside);
-    rival.last_key = logLikelihood(update->agreement, *input.scan.geometry());
+    rival.last_key = logLikelihood(update->agreement, *input.scan.geometry(), usual_hits_);
     rival.log_posterior = rival.last_key + logPriorOf(context, update->pose.mean);
     rival.is_trusted = isTrusted(update->pose.mean);
     found.push_back(std::move(rival));
@@ -166,7 +167,8 @@ double RivalTracks::logPriorOf(const TrackingContext& context, const Pose2& T_ma
   if (!is_started_ || !is_checked_) {
     const double given = start_ ? -0.5 * mahalanobis(T_map_base) : 0.0;
     const double least = is_started_ ? kRivals.wrong_start : kRivals.carried;
-    prior = std::max(least, given) + keys_.logLikelihoodBefore(context.map, T_map_base);
+    prior =
+        std::max(least, given) + keys_.logLikelihoodBefore(context.map, T_map_base, usual_hits_);
     if (is_started_) return prior;
   }
   for (const Hypothesis& other : hypotheses_) {
@@ -220,6 +222,7 @@ void RivalTracks::settle() {
   if (isInDoubt()) return;
   keys_.clear();
   search_again_ = 1;
+  usual_hits_ = hypotheses_.front().track.usualHits();
   hypotheses_.front().log_posterior = hypotheses_.front().last_key = 0.0;
 }
 

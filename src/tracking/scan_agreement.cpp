@@ -26,7 +26,8 @@ struct BeamModel {
            static_cast<double>(agreement.beyond) * std::log(through);
   }
 };
-constexpr BeamModel kRight{0.79, 0.19, 0.02};
+constexpr double kThrough = 0.02;
+constexpr BeamModel kRight{0.79, 0.19, kThrough};
 constexpr BeamModel kElsewhere{0.53, 0.19, 0.28};
 constexpr double kIndependent = 0.07;  // angle between beams that tell two things [rad]
 
@@ -39,9 +40,12 @@ double weightOf(const ScanAgreement& agreement, const scan::ScanGeometry& geomet
 
 }  // namespace
 
-double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
+double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& geometry,
+                     double usual_hits) {
+  const double hit = std::clamp(usual_hits, 0.5, 0.85);
+  const BeamModel model{hit, 1.0 - kThrough - hit, kThrough};
   const auto stopped = static_cast<double>(agreement.occluded + agreement.unjudged);
-  return weightOf(agreement, geometry) * kRight.logOf(agreement, stopped);
+  return weightOf(agreement, geometry) * model.logOf(agreement, stopped);
 }
 
 double logOdds(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {

@@ -28,7 +28,8 @@ class KeyScans {
   bool empty() const { return scans_.empty(); }
   /// Logarithm of the likelihood of all scans but the last one, were the robot now at a pose, and
   /// had it come there as the odometry says.
-  double logLikelihoodBefore(const world::RoomMap& map, const geometry::Pose2& T_map_base) const;
+  double logLikelihoodBefore(const world::RoomMap& map, const geometry::Pose2& T_map_base,
+                             double usual_hits) const;
 
  private:
   std::deque<KeyScan> scans_;

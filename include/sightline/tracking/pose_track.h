@@ -40,6 +40,9 @@ class PoseTrack {
   void inflate(double position_sigma, double heading_sigma);
   geometry::UncertainPose2 pose() const { return filter_.pose(); }
   std::size_t room() const { return memory_.room(); }
+  /// Share of the beams that have met walls lately: how much stands in the rooms.
+  double usualHits() const { return usual_hits_; }
+  void setUsualHits(double share) { usual_hits_ = share; }
   TrackMemory& memory() { return memory_; }
 
  private:
@@ -49,6 +52,7 @@ class PoseTrack {
                           const Sweep& sweep) const;
   Explanation withoutWalls(const Explanation& taken, const TrackingContext& context,
                            const TrackerInput& input) const;
+  void learnHits(const ScanAgreement& agreement);
   void judge(const TrackingContext& context, const TrackerInput& input,
              Explanation& explanation) const;
 
@@ -57,6 +61,7 @@ class PoseTrack {
   std::optional<geometry::Pose2> before_;       // pose after the last scan
   std::optional<geometry::Pose2> last_motion_;  // from the last scan but one to the last
   TrackMemory memory_;
+  double usual_hits_ = kUsualHits;
 };
 
 }  // namespace sightline::tracking

@@ -69,6 +69,9 @@ class RivalTracks {
 
   std::vector<Hypothesis> hypotheses_;             // most probable first
   std::optional<geometry::UncertainPose2> start_;  // as given; until a pose is claimed
+  // Share of beams on walls by which all are compared: that of the published one, when there was
+  // no doubt last.
+  double usual_hits_ = kUsualHits;
   KeyScans keys_;
   WayTravelled way_;  // since the published pose was last put in question
   std::optional<std::int64_t> newest_;

@@ -24,15 +24,24 @@ struct ScanAgreement {
   double quality() const {
     return evidence() == 0 ? 0.0 : static_cast<double>(on_wall) / static_cast<double>(evidence());
   }
-  /// Beams that speak for the pose less those that speak against it.
-  long support() const { return static_cast<long>(on_wall) - static_cast<long>(beyond); }
+  /// Beams of which the map tells what they should meet.
+  std::size_t judged() const { return evidence() + occluded; }
 };
 
+/// Share of the beams that meet the walls of a map, [0.5, 0.85], where nothing is known of how much
+/// stands in its rooms.
+constexpr double kUsualHits = 0.6;
+
 /// Logarithm of the likelihood of a scan, up to what is the same for all poses, by a beam model of
-/// three outcomes: a beam meets the wall (0.79), something before it (0.19), or goes through it
-/// (0.02). Beams of which the map tells nothing count as stopped before a wall. What stops one beam
-/// stops its neighbours: all within 4° together count as one.
-double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& geometry);
+/// three outcomes: a beam meets the wall, something before it, or goes through it (0.02). Beams of
+/// which the map tells nothing count as stopped before a wall. What stops one beam stops its
+/// neighbours: all within 4° together count as one.
+///
+/// @param usual_hits  share of the beams that meet walls; what lies outside [0.5, 0.85] is taken
+/// for
+///                    the nearest limit, so that a beam on a wall never speaks against a pose
+double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& geometry,
+                     double usual_hits = kUsualHits);
 /// Logarithm of the odds by which a scan speaks for the pose and against just any other one, from
 /// which fewer beams meet walls (0.53), as many are stopped (0.19) and more go through (0.28). What
 /// the map does not tell says nothing.
