@@ -99,12 +99,13 @@ bool RoomTracker::setRoom(const std::string& name) {
 }
 
 void RoomTracker::replaceMap(world::RoomMap map) {
+  const auto before = poseAndRoom();
   context_.map = std::move(map);
-  auto before = method_;
-  ifStarted(before, [&](auto& tracker) {
-    const std::optional<geometry::UncertainPose2> pose = tracker.pose();
-    if (pose) setPose(*pose);
-  });
+  if (before) {
+    setPose(before->first);
+  } else {
+    startAnywhere();
+  }
 }
 
 void RoomTracker::restartClock() {
