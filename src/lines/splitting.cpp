@@ -42,11 +42,14 @@ Splitting::Splitting(const BeamArray& beams, const LineExtractorConfig& config)
 
 bool Splitting::split(const Piece& piece, std::vector<Piece>& parts) {
   if (isBent(piece) && gather(piece.first, piece.end, piece.line, piece.line, piece.line)) {
+    const double one = costOf(0, blocks_);
     const double two = bestOfTwo().cost;
     // Where even two lines leave more than the noise does, it takes more to gain by chance.
-    const double freedom = before_[blocks_].returns - kSplitting.line_freedom - 2.0;
-    const double most = price() * std::max(1.0, two / std::max(1.0, freedom));
-    if (costOf(0, blocks_) - two > most) {
+    const double freedom = before_[blocks_].returns - 2.0;
+    const double rest = std::max(1.0, freedom - kSplitting.line_freedom);
+    const double most = price() * std::max(1.0, two / rest);
+    // What the noise explains is one wall, be it as uneven as the noise.
+    if (one - two > most && one - freedom > 0.5 * most) {
       divide(most);
       if (append(parts)) return true;
     }

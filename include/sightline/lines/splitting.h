@@ -31,7 +31,7 @@ class Splitting {
   bool settle(Piece& before, Piece& after);
 
  private:
-  static constexpr std::size_t kMostBlocks = 48;
+  static constexpr std::size_t kMostBlocks = 32;
   struct Break {
     std::size_t at;  // block
     double cost;
