@@ -22,8 +22,10 @@ struct CornerConstants {
   double vaguer = 9.0;
   // Mean square of the returns that are lost with a stray one near the end, about.
   double lost_squared = 4.0;
-  // Beams between two walls that meet: few, as all that are not lost hit one or the other.
+  // Beams between two walls that meet: few, as all that are not lost hit one or the other; and
+  // returns, which are from something in front of the corner if there are more.
   std::size_t most_between = 5;
+  std::size_t most_astray = 2;
 };
 constexpr CornerConstants kCorner{};
 
@@ -92,11 +94,14 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
          std::abs(on_b - next_on_b) < slack + reach_b + spacingAt(neighbour, next);
 }
 
-// Numbers of beams may be a revolution off on a full circle.
+// Numbers of beams and of returns may be a revolution off on a full circle.
 bool EndPoints::areNeighbours(std::size_t i, std::size_t k) const {
-  const std::size_t count = scan_.beams();
-  const std::size_t ahead = (beams_.beam[k] + 2 * count - beams_.beam[i]) % count;
-  return std::min(ahead, count - ahead) <= kCorner.most_between + 1;
+  const auto apart = [](std::size_t a, std::size_t b, std::size_t count) {
+    const std::size_t ahead = (b + 2 * count - a) % count;
+    return std::min(ahead, count - ahead);
+  };
+  return apart(beams_.beam[i], beams_.beam[k], scan_.beams()) <= kCorner.most_between + 1 &&
+         apart(i, k, beams_.revolution) <= kCorner.most_astray + 1;
 }
 
 double EndPoints::spacingAt(const Piece& piece, std::size_t i) const {

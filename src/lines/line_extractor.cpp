@@ -109,13 +109,16 @@ void LineExtractor::splitPieces() {
   bool is_split = false;
   for (const Piece& piece : pieces_) is_split |= splitting.split(piece, parts_);
   pieces_.swap(parts_);
-  bool is_settled = false;
-  for (int round = 0; round < kSettlingRounds; ++round) {
+  bool is_moved = is_split;
+  bool moves = true;
+  for (int round = 0; moves && round < kSettlingRounds; ++round) {
+    moves = false;
     for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
-      is_settled |= splitting.settle(pieces_[i], pieces_[i + 1]);
+      moves |= splitting.settle(pieces_[i], pieces_[i + 1]);
     }
+    is_moved |= moves;
   }
-  if (!is_split && !is_settled) return;
+  if (!is_moved) return;
   placeBreaks();
   refinePieces();
 }

@@ -22,6 +22,8 @@ struct SplittingConstants {
   double least_bend = 0.05;
   // Lines that meet at more than this need no help to find where [sine].
   double most_bend = 0.6;
+  // Nor do those that are told apart within so many returns.
+  double sure_break = 2.0;
   std::size_t most_between = 8;  // returns between two pieces that adjoin
 };
 constexpr SplittingConstants kSplitting{};
@@ -42,11 +44,14 @@ Splitting::Splitting(const BeamArray& beams, const LineExtractorConfig& config)
 
 bool Splitting::split(const Piece& piece, std::vector<Piece>& parts) {
   if (isBent(piece) && gather(piece.first, piece.end, piece.line, piece.line, piece.line)) {
+    const double one = costOf(0, blocks_);
     const double two = bestOfTwo().cost;
     // Where even two lines leave more than the noise does, it takes more to gain by chance.
-    const double freedom = before_[blocks_].returns - kSplitting.line_freedom - 2.0;
-    const double most = price() * std::max(1.0, two / std::max(1.0, freedom));
-    if (costOf(0, blocks_) - two > most) {
+    const double freedom = before_[blocks_].returns - 2.0;
+    const double rest = std::max(1.0, freedom - kSplitting.line_freedom);
+    const double most = price() * std::max(1.0, two / rest);
+    // What the noise explains is one wall, be it as uneven as the noise.
+    if (one - two > most && one - freedom > 0.5 * most) {
       divide(most);
       if (append(parts)) return true;
     }
@@ -125,18 +130,31 @@ void Splitting::score(const Piece& piece) {
 }
 
 bool Splitting::settle(Piece& before, Piece& after) {
-  if (std::abs(bendBetween(before, after)) > kSplitting.most_bend || !adjoin(before, after))
-    return false;
+  const double sine = std::abs(bendBetween(before, after));
+  if (sine > kSplitting.most_bend || !adjoin(before, after)) return false;
+  if (reachOfNoise(before, after) < kSplitting.sure_break * sine) return false;
   if (!gather(before.first, after.end, middleLine(before, after), before.line, after.line)) {
     return false;
   }
   const std::size_t at = bestOfTwo().at;
+  const std::size_t moved = std::max(beginOf(at), after.first) - std::min(beginOf(at), after.first);
+  if (moved < block_) return false;
   Piece first = part(0, at);
   Piece second = part(at, blocks_);
   if (!refine(beams_, gate_squared_, first) || !refine(beams_, gate_squared_, second)) return false;
   before = first;
   after = second;
   return true;
+}
+
+// Two standard deviations of the noise where pieces meet, over the distance of the returns there.
+double Splitting::reachOfNoise(const Piece& before, const Piece& after) const {
+  const std::size_t last = before.end - 1;
+  const double spacing =
+      std::hypot(beams_.x[after.first] - beams_.x[last], beams_.y[after.first] - beams_.y[last]) /
+      static_cast<double>(after.first - last);
+  const auto weight = static_cast<double>(residualsOf(beams_, last, before.line).weight[0]);
+  return 2.0 / std::sqrt(weight) / std::max(spacing, 1e-6);
 }
 
 // Whether the pieces follow on each other and their lines meet there: one behind the other has no

@@ -8,10 +8,12 @@
 #include "lines/motion.h"
 #include "lines/recording.h"
 #include "lines/scenario.h"
+#include "lines/standing.h"
 #include "live_node.h"
 #include "sightline/LineSegmentArray.h"
 #include "sightline/bridge/scan_conversion.h"
 #include "sightline/lines/line_extractor.h"
+#include "sightline/lines/plain_extractor.h"
 
 namespace sightline::bench {
 namespace {
@@ -64,24 +66,58 @@ void otherWorlds() {
   run("turning_3rad", turning, lRoom);
 }
 
-void runRecording() {
+/// A recording with the noise learned, as the node has it, and with 1 cm given.
+void runRecording(const std::string& name, const std::vector<scan::Scan>& scans) {
+  for (const bool is_given : {false, true}) {
+    lines::LineExtractor extractor(settings());
+    scan::LearnedNoise noise;
+    Explained explained;
+    Standing standing;
+    std::vector<double> times;
+    for (scan::Scan scan : scans) {
+      is_given ? scan::applyNoise({}, scan) : noise.apply(scan);
+      times.push_back(microseconds([&] { extractor.extract(scan); }));
+      const auto& segments = extractor.extract(scan);
+      explained.add(scan, segments, extractor.arcs());
+      standing.add(segments);
+    }
+    const std::string prefix = "lines." + name + (is_given ? ".given_1cm." : ".");
+    explained.printFigures(prefix);
+    print(prefix + "us_median", median(times), "us");
+    if (name == "two_hokuyos") standing.printFigures(prefix);
+  }
+}
+
+void runRecordings() {
   const char* const data = std::getenv("SIGHTLINE_DATA");
   if (!data) {
-    std::printf("# lines.two_hokuyos: SIGHTLINE_DATA does not say where the recording is\n");
+    std::printf("# lines.two_hokuyos: SIGHTLINE_DATA does not say where the recordings are\n");
     return;
   }
-  scan::NoiseModel unknown;
-  unknown.kind = scan::NoiseKind::kEstimated;
-  lines::LineExtractor extractor(settings());
-  Explained explained;
-  std::vector<double> times;
-  for (const auto& scan :
-       readScans(std::string(data) + "/two_hokuyos.bag", "/front_scan", unknown)) {
-    times.push_back(microseconds([&] { extractor.extract(scan); }));
-    explained.add(scan, extractor.extract(scan), extractor.arcs());
+  const std::string folder(data);
+  runRecording("two_hokuyos", readScans(folder + "/two_hokuyos.bag", "/front_scan"));
+  runRecording("fr079", readLog(folder + "/fr079.clf.gz"));
+  runRecording("intel_part", readLog(folder + "/intel_part.clf.gz"));
+}
+
+/// The recursion as the paper has it, beside the figures of the whole method in the same room.
+void runPlainMethod() {
+  std::mt19937 random(2026);
+  for (const int start_beams : {5, 20}) {
+    lines::LineExtractorConfig config = settings();
+    config.start_beams = start_beams;
+    lines::PlainExtractor extractor(config);
+    Score score;
+    for (int i = 0; i < kPoses; ++i) {
+      const Scene scene = plainRoom(random);
+      const Sensor sensor{1081, 1.5 * geometry::kPi, 0.01};
+      const View view = Viewer(scene.world, sensor, scene.pose).view(random);
+      score.microseconds.push_back(microseconds([&] { extractor.extract(view.scan); }));
+      score.conversion.push_back(convert(view.scan));
+      score.add(view, extractor.extract(view.scan));
+    }
+    score.printFigures("1081_s1.plain_k" + std::to_string(start_beams));
   }
-  explained.printFigures("lines.two_hokuyos.");
-  print("lines.two_hokuyos.us_median", median(times), "us");
 }
 
 void runNode() {
@@ -128,7 +164,8 @@ int main() {
   runSingleWall("wall_aside", 0.0, 2.0);
   runSingleWall("wall_oblique", 2.0, 1.5);
   motionConsistency();
-  runRecording();
+  runPlainMethod();
+  runRecordings();
   runNode();
   return 0;
 }

@@ -31,7 +31,7 @@ class Splitting {
   bool settle(Piece& before, Piece& after);
 
  private:
-  static constexpr std::size_t kMostBlocks = 48;
+  static constexpr std::size_t kMostBlocks = 32;
   struct Break {
     std::size_t at;  // block
     double cost;
@@ -45,6 +45,7 @@ class Splitting {
   bool gather(std::size_t first, std::size_t end, const LineEstimate& about,
               const LineEstimate& before, const LineEstimate& after);
   std::size_t beginOf(std::size_t block) const;
+  double reachOfNoise(const Piece& before, const Piece& after) const;
   bool adjoin(const Piece& before, const Piece& after) const;
   LineEstimate middleLine(const Piece& before, const Piece& after) const;
   LineSums sumOf(std::size_t first, std::size_t end, const LineEstimate& before,

@@ -88,6 +88,7 @@ class Viewer {
     std::vector<double> ranges;
     std::vector<geometry::Pose2> motion;
     std::vector<double> variances;
+    astray_.assign(n, false);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (std::size_t i = 0; i < n; ++i) {
       hits_.push_back(hitAt(static_cast<double>(i)));
@@ -102,7 +103,7 @@ class Viewer {
     scan.setRangeVariances(std::move(variances));
     scan.angular_variance = sensor_.angular_sigma * sensor_.angular_sigma;
   }
-  double measure(std::size_t beam, std::mt19937& random) const {
+  double measure(std::size_t beam, std::mt19937& random) {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> share(0.0, 1.0);
     double range = hits_[beam].range;
@@ -117,6 +118,7 @@ class Viewer {
     }
     if (sensor_.outlier_share > 0.0 && share(random) < sensor_.outlier_share) {
       range = 0.1 + 9.9 * share(random);
+      astray_[beam] = true;
     }
     return sensor_.step > 0.0 && std::isfinite(range)
                ? sensor_.step * std::round(range / sensor_.step)
@@ -207,7 +209,7 @@ class Viewer {
     std::vector<fitting::NoisyPoint> points;
     for (long i = first; i <= last; ++i) {
       const std::size_t beam = static_cast<std::size_t>(i) % sensor_.beams;
-      if (hits_[beam].what == wall && scan.isValid(beam)) {
+      if (hits_[beam].what == wall && scan.isValid(beam) && !astray_[beam]) {
         points.push_back({scan.point(beam), scan.covariance(beam)});
       }
     }
@@ -259,6 +261,7 @@ class Viewer {
   geometry::Pose2 pose_;
   bool circle_;
   std::vector<Hit> hits_;
+  std::vector<bool> astray_;  // returns that are of nothing
 };
 
 }  // namespace sightline::bench
