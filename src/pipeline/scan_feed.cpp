@@ -27,11 +27,12 @@ std::size_t ScanFeed::addScanner() {
 }
 
 void ScanFeed::add(std::size_t scanner, scan::Scan scan, std::int64_t now) {
-  admit({scanner, std::move(scan), std::nullopt, now});
+  admit({scanner, std::move(scan), std::nullopt, now, false, std::nullopt});
 }
 
 void ScanFeed::add(std::size_t scanner, motion::RangeScan range_scan, std::int64_t now) {
-  admit({scanner, std::move(range_scan.scan), std::move(range_scan.head), now});
+  admit(
+      {scanner, std::move(range_scan.scan), std::move(range_scan.head), now, false, std::nullopt});
 }
 
 // Tells whether a stamp leaps since it is that of an arrival in bursts.

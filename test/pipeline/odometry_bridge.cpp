@@ -95,8 +95,7 @@ TEST_F(OdometryBridgeTest, GoesOnWhereTheClockWasSet) {
   bridge_.restartClock();
   EXPECT_FALSE(bridge_.follow(900 * kTick, poseAt).is_broken);
   bridge_.restartClock();
-  const auto step =
-      bridge_.follow(900 * kTick, [](std::int64_t) { return Pose2(50, 0, 0); });
+  const auto step = bridge_.follow(900 * kTick, [](std::int64_t) { return Pose2(50, 0, 0); });
   EXPECT_TRUE(step.is_broken);
   EXPECT_LT(step.T_path_base.translation().norm(), 2.0);
 }
