@@ -8,9 +8,10 @@ namespace sightline::dead_reckoning {
 namespace {
 
 constexpr struct {
-  // Before anything is known, and the least, of the change of velocity and of the speed:
-  // translation [m/s², m/s] and heading [rad/s², rad/s].
-  double first_change[2] = {1.0, 3.0};
+  // Change of velocity before anything is known, over what the carrier is capable of.
+  double first_change = 0.125;
+  // Least of the change of velocity and of the speed: of translation [m/s², m/s] and of heading
+  // [rad/s², rad/s].
   double least_change[2] = {0.1, 0.25};
   double least_speed[2] = {0.6, 0.75};
   // Scans over which what was learned fades.
@@ -33,7 +34,7 @@ void follow(double value, double scans, double& rms) {
 }  // namespace
 
 void MotionHabit::reset() {
-  change_ = {kHabit.first_change[0], kHabit.first_change[1]};
+  change_ = kHabit.first_change * Eigen::Vector2d(limits_.acceleration, limits_.turn_acceleration);
   speed_.setZero();
 }
 

@@ -18,7 +18,7 @@ struct CarrierConfig {
   double max_speed = 6.0;           ///< [m/s], in any direction
   double max_turn_rate = 6.0;       ///< [rad/s]
   double acceleration = 5.0;        ///< standard deviation [m/s²], at most
-  double turn_acceleration = 20.0;  ///< standard deviation [rad/s²], at most
+  double turn_acceleration = 12.0;  ///< standard deviation [rad/s²], at most
 
   void visit(config::FieldVisitor& visitor);
 };
