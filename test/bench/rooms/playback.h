@@ -34,6 +34,13 @@ struct TrackedScan {
   bool isClaimed() const { return state == tracking::TrackerState::kTracking; }
 };
 
+/// Time that this thread has run [s]: other programs do not count.
+inline double threadTime() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 /// Plays a recorded drive to a tracker through the feed, both with the settings they are shipped
 /// with.
 class Playback {
@@ -70,13 +77,6 @@ class Playback {
     scans_.push_back(judge(update, *T_map_base));
     scans_.back().time = 1e-9 * static_cast<double>(result.stamp);
     scans_.back().microseconds = 1e6 * spent;
-  }
-
-  // Time that this thread has run [s]: other programs do not count.
-  static double threadTime() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   }
 
   static TrackedScan judge(const std::optional<tracking::TrackerUpdate>& update,
