@@ -14,7 +14,9 @@ struct NoiseFitConstants {
   double least_start = 0.0005;
   double largest_start = 0.3;
   double start_ratio = 1.4142135623730951;
-  int start_steps = 4;
+  int start_steps = 2;
+  // Relative change of a variance that no longer matters.
+  double settled = 0.005;
   // Share of noise before anything is known, and the distances that this weighs as much as.
   double usual_share = 0.5;
   double usual_weight = 4.0;
@@ -124,7 +126,14 @@ void NoiseFit::start(const NoiseHistogram& histogram) {
 }
 
 void NoiseFit::improve(const NoiseHistogram& histogram, int steps) {
-  for (int i = 0; i < steps; ++i) step(histogram);
+  bool changes = true;
+  for (int i = 0; changes && i < steps; ++i) {
+    const double constant = constant_;
+    const double growth = growth_;
+    step(histogram);
+    changes = std::abs(constant_ - constant) > kFit.settled * constant ||
+              std::abs(growth_ - growth) > kFit.settled * growth;
+  }
 }
 
 void NoiseFit::step(const NoiseHistogram& histogram) {

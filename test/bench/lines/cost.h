@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lines/scenario.h"
+#include "scenario.h"
 #include "sightline/scan/noise_model.h"
 
 namespace sightline::bench {

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "allocations.h"
-#include "lines/door.h"
-#include "lines/round_things.h"
-#include "lines/scenes.h"
-#include "lines/score.h"
-#include "lines/view.h"
+#include "bench/allocations.h"
+#include "door.h"
+#include "round_things.h"
+#include "scenes.h"
+#include "score.h"
 #include "sightline/lines/line_extractor.h"
 #include "sightline/scan/learned_noise.h"
+#include "view.h"
 
 namespace sightline::bench {
 

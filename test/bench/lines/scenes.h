@@ -44,7 +44,7 @@ inline bool isInside(const std::vector<Eigen::Vector2d>& outline, const Eigen::V
   return inside;
 }
 
-/// Draws a place inside the outline with so much space around it.
+/// Draws a place inside the outline with so much space around it, where there is.
 inline Eigen::Vector2d placeIn(const PlaneWorld& world, const std::vector<Eigen::Vector2d>& outline,
                                double space, std::mt19937& random) {
   Eigen::Vector2d low = outline.front();
@@ -57,6 +57,7 @@ inline Eigen::Vector2d placeIn(const PlaneWorld& world, const std::vector<Eigen:
     const Eigen::Vector2d place(uniform(random, low.x(), high.x()),
                                 uniform(random, low.y(), high.y()));
     if (isInside(outline, place) && isClear(world, place, space)) return place;
+    space *= 0.999;  // a full room makes do with less
   }
 }
 
