@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <Eigen/LU>
@@ -207,7 +206,7 @@ SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, co
     candidates.push_back(
         refine(reference.submap, wide, candidate.T_odom_base, kMatch.search_scale));
   }
-  std::move(candidates.begin(), candidates.end(), std::back_inserter(hypotheses));
+  for (Hypothesis& candidate : candidates) hypotheses.push_back(std::move(candidate));
   MatchOutcome outcome = conclude(hypotheses, task);
   outcome.evaluations += found.evaluations;
   return {outcome, rasters};
