@@ -8,8 +8,10 @@ namespace sightline::dead_reckoning {
 namespace {
 
 constexpr struct {
-  // Change of velocity before anything is known, over what the carrier is capable of.
+  // Change of velocity, and turn rate, before anything is known, over what the carrier is capable
+  // of: it stands at first, but may turn on the spot.
   double first_change = 0.125;
+  double first_turn_rate = 0.25;
   // Least of the change of velocity and of the speed: of translation [m/s², m/s] and of heading
   // [rad/s², rad/s].
   double least_change[2] = {0.1, 0.25};
@@ -35,7 +37,7 @@ void follow(double value, double scans, double& rms) {
 
 void MotionHabit::reset() {
   change_ = kHabit.first_change * Eigen::Vector2d(limits_.acceleration, limits_.turn_acceleration);
-  speed_.setZero();
+  speed_ = {0.0, kHabit.first_turn_rate * limits_.max_turn_rate};
 }
 
 void MotionHabit::learn(const Eigen::Vector3d& expected, const Eigen::Vector3d& twist,

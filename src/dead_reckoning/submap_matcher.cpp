@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <Eigen/LU>
+
+#include "sightline/dead_reckoning/pose_difference.h"
 
 namespace sightline::dead_reckoning {
 
@@ -42,9 +43,8 @@ struct MatchTuning {
   double search_scale = 0.3;
   // Fewer points than this say nothing.
   std::size_t fewest_points = 20;
-  // Two poses further apart than this are two explanations [m, rad], and ambiguous where their
-  // costs are this near; refining one of two that are nearer than the second pair leads to the
-  // other.
+  // Two poses further apart than this are two explanations [m, rad], ambiguous where their costs
+  // are this near; refining one of two that are nearer than the second pair leads to the other.
   double distinct_position = 0.15;
   double distinct_heading = 0.06;
   double neighbour_position = 0.25;
@@ -62,12 +62,6 @@ struct MatchTuning {
   int trusted_after = 3;
 };
 constexpr MatchTuning kMatch{};
-
-Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
-  Eigen::Vector3d off = a.coordinates() - b.coordinates();
-  off[2] = geometry::wrapAngle(off[2]);
-  return off;
-}
 
 bool isDistinct(const Pose2& a, const Pose2& b) {
   const Eigen::Vector3d off = difference(a, b);
@@ -87,13 +81,8 @@ bool isNear(const Pose2& pose, const UncertainPose2& prior) {
   return off.dot(prior.covariance.inverse() * off) < kMatch.near_prior;
 }
 
-bool isWithin(const SearchWindow& window, double ratio) {
-  return window.position < ratio * kMatch.narrow_position &&
-         window.heading < ratio * kMatch.narrow_heading;
-}
-
 bool isNarrow(const SearchWindow& window) {
-  return isWithin(window, 1.0);
+  return window.isWithin(kMatch.narrow_position, kMatch.narrow_heading);
 }
 
 bool isAtTheMiddle(const Pose2& pose, const SearchWindow& window) {
@@ -181,7 +170,8 @@ SubmapMatcher::Attempt SubmapMatcher::matchWith(const Reference& reference,
                                                 const Task& task) const {
   if (task.surfaces.points.size() < kMatch.fewest_points) return {{}, reference.rasters};
   std::vector<Hypothesis> hypotheses;
-  if (isWithin(task.window, kMatch.moderate)) {
+  if (task.window.isWithin(kMatch.moderate * kMatch.narrow_position,
+                           kMatch.moderate * kMatch.narrow_heading)) {
     hypotheses.push_back(refine(reference.submap, task, task.window.centre, kMatch.local_scale));
     if (isBeyondDoubt(hypotheses.back(), task)) {
       return {conclude(hypotheses, task), reference.rasters};
@@ -216,7 +206,7 @@ SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, co
     candidates.push_back(
         refine(reference.submap, wide, candidate.T_odom_base, kMatch.search_scale));
   }
-  std::move(candidates.begin(), candidates.end(), std::back_inserter(hypotheses));
+  for (Hypothesis& candidate : candidates) hypotheses.push_back(std::move(candidate));
   MatchOutcome outcome = conclude(hypotheses, task);
   outcome.evaluations += found.evaluations;
   return {outcome, rasters};

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "sightline/dead_reckoning/pose_difference.h"
 #include "sightline/pipeline/odometry_bridge.h"
 
 namespace sightline::pipeline {
@@ -70,8 +71,7 @@ constexpr struct {
 
 // Squared Mahalanobis distance of a step from a prior.
 double distanceFrom(const MotionPrior& prior, const Pose2& step) {
-  Eigen::Vector3d off = step.coordinates() - prior.T_before_now.coordinates();
-  off[2] = geometry::wrapAngle(off[2]);
+  const Eigen::Vector3d off = dead_reckoning::difference(step, prior.T_before_now);
   return off.dot(prior.covariance.inverse() * off);
 }
 

@@ -217,40 +217,6 @@ TEST(DeadReckoner, AChangeOfTheScanRateIsNoHarm) {
   expectNear(update->pose.mean, geometry::between(onArc(0), onArc(18)), 0.02, 0.01);
 }
 
-TEST(DeadReckoner, NoGapClearsTheReference) {
-  for (const double gap : {4.0, 60.0, 3600.0}) {
-    DeadReckoner reckoner({});
-    Viewer viewer(test::furnishedRoom(), test::scanner(), 1);
-    reckoner.update(viewer.look(onArc(0), 0.0), Pose2());
-    const auto after = reckoner.update(viewer.look(onArc(6), gap), Pose2());
-    EXPECT_EQ(after->state, MatchState::kMatched) << gap;
-    expectNear(after->step.mean, geometry::between(onArc(0), onArc(6)), 0.02, 0.01);
-    const auto next = reckoner.update(viewer.look(onArc(7), gap + 0.2), Pose2());
-    EXPECT_EQ(next->state, MatchState::kMatched) << gap;
-    expectNear(next->pose.mean, geometry::between(onArc(0), onArc(7)), 0.02, 0.01);
-  }
-}
-
-TEST(DeadReckoner, GoesByTheClockWhereTheStampsDoNotTellTheTime) {
-  DeadReckoner reckoner({});
-  Viewer viewer(test::furnishedRoom(), test::scanner(), 1);
-  std::optional<DeadReckoningUpdate> update;
-  // All of one burst, and the third a period late: a scan was lost before it.
-  const scan::ElapsedTime elapsed{kPeriod, 3.0 * kPeriod, 0.02 * kPeriod};
-  int place = 0;
-  for (int i = 0; i < 8; ++i, ++place) {
-    if (i == 3) ++place;
-    const double stamp = 1.0 - 0.001 * i;
-    update = reckoner.update(viewer.look(onArc(place), stamp), Pose2(), {}, elapsed);
-    ASSERT_TRUE(update) << i;
-    EXPECT_FALSE(update->isFlagged()) << i;
-  }
-  expectNear(update->pose.mean, geometry::between(onArc(0), onArc(8)), 0.02, 0.01);
-  const Eigen::Vector3d twist = geometry::between(onArc(7), onArc(8)).log() / kPeriod;
-  EXPECT_LT((update->twist.mean - twist).norm(), 0.1);
-  EXPECT_GT(update->twist.covariance(0, 0), 1e-4 * twist.x() * twist.x());
-}
-
 TEST(DeadReckoner, ResetGoesToTheGivenPose) {
   DeadReckoner reckoner({});
   Viewer viewer(test::furnishedRoom(), test::scanner(), 1);

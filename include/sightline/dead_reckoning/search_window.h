@@ -9,6 +9,10 @@ struct SearchWindow {
   geometry::Pose2 centre;  ///< T_odom_base
   double position = 0.0;   ///< half side of the square, along the axes of odom [m]
   double heading = 0.0;    ///< half width [rad]
+
+  bool isWithin(double most_position, double most_heading) const {
+    return position < most_position && heading < most_heading;
+  }
 };
 
 }  // namespace sightline::dead_reckoning
