@@ -9,6 +9,8 @@ namespace sightline::bridge {
 
 namespace {
 
+constexpr double kFastestTurn = 100.0;  // [rad/s]
+
 bool hasOrientation(const sensor_msgs::Imu& message) {
   const auto& q = message.orientation;
   return message.orientation_covariance[0] >= 0.0 &&
@@ -24,6 +26,9 @@ void checkImu(const sensor_msgs::Imu& message) {
   }
   if (!std::isfinite(w.x + w.y + w.z)) {
     throw BadMessage("an angular velocity that is not finite");
+  }
+  if (Eigen::Vector3d(w.x, w.y, w.z).norm() > kFastestTurn) {
+    throw BadMessage("an angular velocity that nothing on a floor has");
   }
   if (hasOrientation(message) && !std::isfinite(q.x + q.y + q.z + q.w)) {
     throw BadMessage("an orientation that is not finite");

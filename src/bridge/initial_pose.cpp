@@ -47,6 +47,9 @@ geometry::UncertainPose2 readInitialPose(const geometry_msgs::PoseWithCovariance
     throw BadMessage("a position that is not finite");
   }
   checkOrientation(message.pose.pose.orientation);
+  const std::string fault =
+      faultOfPose({position.x, position.y, 0.0}, message.pose.pose.orientation);
+  if (!fault.empty()) throw BadMessage(fault);
   const Eigen::Matrix3d covariance = toCovariance3(message.pose.covariance);
   if (covariance.isZero(0.0)) return {toPose2(message.pose.pose), diagonalCovariance(sigma)};
   checkCovariance(covariance);

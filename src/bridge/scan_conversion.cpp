@@ -1,5 +1,6 @@
 #include "sightline/bridge/scan_conversion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +16,8 @@ namespace {
 
 // Longest time that a mirror takes for a turn [s].
 constexpr double kLongestSweep = 5.0;
+// No planar scanner sees so far [m].
+constexpr double kFarthest = 1000.0;
 // A turn, and what the floats of a message may overshoot by [rad].
 constexpr double kLargestSpan = 2.0 * geometry::kPi + 1e-3;
 
@@ -75,12 +78,12 @@ double ScanReader::angleIncrementOf(const sensor_msgs::LaserScan& message) {
 }
 
 config::Range ScanReader::limitsOf(const sensor_msgs::LaserScan& message) {
-  if (message.range_min >= 0.0F && message.range_min < message.range_max) {
-    return {message.range_min, message.range_max};
-  }
+  const double nearest = message.range_min;
+  const double farthest = std::min<double>(message.range_max, kFarthest);
+  if (nearest >= 0.0 && nearest < farthest) return {nearest, farthest};
   mended_.try_emplace("range limits", fmt::format("range limits {} to {} m: taken for none",
                                                   message.range_min, message.range_max));
-  return {0.0, std::numeric_limits<double>::infinity()};
+  return {0.0, kFarthest};
 }
 
 double ScanReader::timeIncrementOf(const sensor_msgs::LaserScan& message) {

@@ -15,7 +15,7 @@ struct Remedy {
   const char* remedy;
 };
 
-constexpr std::array<Remedy, 14> kRemedies{{
+constexpr std::array<Remedy, 16> kRemedies{{
     {"its plane is not level",
      "correct the mounting on tf: the z axis of the scan's frame has to point up, or down; an "
      "optical frame of a camera does not"},
@@ -30,6 +30,8 @@ constexpr std::array<Remedy, 14> kRemedies{{
     {"out of range", "mend the stamps of the scanner's driver"},
     {"of the ones before it",
      "mend the stamps of the scanner's driver, or the clock of its machine"},
+    {"ends before it", "let scanner and odometry be stamped by one clock, or set time_offset"},
+    {"the stamp of the scan before it", "let the driver of the scanner stamp each scan anew"},
     {"older than the", "let one driver alone publish on the topic of the scans"},
     {"no intensities", "set another kind of noise, such as noise: {kind: estimated}"},
     {"no beams", "mend the driver of the scanner: its messages are empty"},

@@ -27,11 +27,12 @@ std::size_t ScanFeed::addScanner() {
 }
 
 void ScanFeed::add(std::size_t scanner, scan::Scan scan, std::int64_t now) {
-  admit({scanner, std::move(scan), std::nullopt, now});
+  admit({scanner, std::move(scan), std::nullopt, now, false, std::nullopt});
 }
 
 void ScanFeed::add(std::size_t scanner, motion::RangeScan range_scan, std::int64_t now) {
-  admit({scanner, std::move(range_scan.scan), std::move(range_scan.head), now});
+  admit(
+      {scanner, std::move(range_scan.scan), std::move(range_scan.head), now, false, std::nullopt});
 }
 
 // Tells whether a stamp leaps since it is that of an arrival in bursts.
@@ -189,8 +190,9 @@ std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
   }
   ScanLocator::Outcome outcome;
   const auto& before = scanners_[front.scanner].before;
-  if (before && front.scan.stamp < *before && !front.elapsed) {
-    outcome.reason = "older than the scan before it";
+  if (before && front.scan.stamp <= *before && !front.elapsed) {
+    const bool is_same = front.scan.stamp == *before;
+    outcome.reason = is_same ? "the stamp of the scan before it" : "older than the scan before it";
   } else {
     outcome = locator_.locate(front, patience, before);
   }

@@ -252,6 +252,12 @@ void ScanLocator::addMotion(const ArrivedScan& arrived, std::int64_t lag,
   sweep_motion_.add(arrived, carried, base, lag, located);
 }
 
+// Whether the odometry that there is ends long before a scan.
+bool ScanLocator::isOver(const ArrivedScan& arrived) const {
+  const auto newest = newestOdometry(arrived.carriedFrame());
+  return newest && *newest < arrived.scan.stamp - kConstants.silence;
+}
+
 void ScanLocator::explain(const ArrivedScan& arrived, Known odometry, LocatedScan& located) const {
   located.before_odometry = odometry == Known::kNever;
   if (located.before_odometry) {
@@ -261,7 +267,8 @@ void ScanLocator::explain(const ArrivedScan& arrived, Known odometry, LocatedSca
         fmt::format("no transform from {} to {} at its time", frames_.base, arrived.carriedFrame());
   } else if (!located.T_odom_base) {
     located.no_odometry =
-        fmt::format("no odometry from {} to {} at its time", frames_.odom, frames_.base);
+        fmt::format("{} from {} to {} {}", isOver(arrived) ? "the odometry" : "no odometry",
+                    frames_.odom, frames_.base, isOver(arrived) ? "ends before it" : "at its time");
   }
 }
 

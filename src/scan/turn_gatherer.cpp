@@ -58,8 +58,8 @@ std::optional<Scan> TurnGatherer::gather(const Scan& sweep) {
   if (first_) {
     const double begin = angleOnFrom(angles_.back(), sweep.geometry()->angles().front());
     const std::int64_t elapsed = sweep.stamp - first_->stamp;
-    const bool is_next =
-        std::abs(begin - angles_.front()) < kWholeTurn - 1e-6 && elapsed > 0 && elapsed < kLongestTurn;
+    const bool is_next = std::abs(begin - angles_.front()) < kWholeTurn - 1e-6 && elapsed > 0 &&
+                         elapsed < kLongestTurn;
     if (!is_next) whole = finish();
   }
   append(sweep);

@@ -130,7 +130,7 @@ TEST(ScanReader, TakesScansInAnyOrderOfTime) {
 TEST(ScanReader, AGoodScanAfterABadOneIsRead) {
   ScanReader reader;
   auto bad = message();
-  bad.angle_increment = 0.0F;
+  bad.ranges.clear();
   EXPECT_THROW(reader.read(bad), scan::InvalidScan);
   EXPECT_EQ(reader.read(message()).beams(), 5U);
 }

@@ -55,6 +55,8 @@ inline simulation::Mounting aside() {
 /// with a clock of its own, days after the one before, which starts the odometry anew.
 class OdometryRobot {
  public:
+  static constexpr int kScansToBegin = 3;
+
   struct Kind {
     std::string prefix;  // of topics and frames
     simulation::Mounting mounting;
@@ -120,11 +122,21 @@ class OdometryRobot {
 
   void sendWithoutAnswer(const sensor_msgs::LaserScan& message) { scans_.publish(message); }
 
-  /// The first scan starts the odometry anew, because its clock is one of its own.
+  /// Starts the odometry anew, because the clock is one of its own: that is believed from its third
+  /// scan on. Returns the answer to the first one.
   nav_msgs::Odometry begin() {
-    const auto answer = send(nextScan());
+    for (int i = 0; i < kScansToBegin; ++i) {
+      const auto scan = nextScan();
+      truth = truthAt(scan.stamp);
+      if (i == 0) truth_first_ = truth;
+      scans_.publish(toMessage(scan));
+    }
+    const std::size_t before = answered_;
+    answered_ += kScansToBegin;
+    const auto all = answers_.atLeast(answered_);
+    const auto answer = all.size() > before ? all[before] : nav_msgs::Odometry();
     first_ = bridge::toPose2(answer.pose.pose);
-    truth_first_ = truth;
+    truth = truth_first_;
     return answer;
   }
 

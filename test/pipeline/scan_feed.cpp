@@ -17,7 +17,7 @@ using testing::Pair;
 
 // 361 beams at a wall two metres ahead, with noise; every third beam of a cluttered scan sees
 // something nearer.
-scan::Scan wallAhead(double sigma, bool is_cluttered, std::mt19937& random) {
+scan::Scan wallAhead(double stamp, double sigma, bool is_cluttered, std::mt19937& random) {
   const auto geometry = scan::ScanGeometry::uniform(-1.2, 2.4 / 360.0, 361, 0.0, 0.1, 10.0);
   std::normal_distribution<double> noise(0.0, sigma);
   std::vector<double> ranges;
@@ -26,7 +26,7 @@ scan::Scan wallAhead(double sigma, bool is_cluttered, std::mt19937& random) {
     const bool is_near = is_cluttered && i % 3 == 0;
     ranges.push_back(is_near ? 0.1 + 0.5 * to_wall : to_wall);
   }
-  return {geometry, at(10.0), std::move(ranges)};
+  return {geometry, at(stamp), std::move(ranges)};
 }
 
 // Sigma of the first beam of a scan that went through the feed.
@@ -40,16 +40,17 @@ TEST_F(ScanFeedTest, LearnsTheNoiseOfEachScannerAndKeepsIt) {
   EXPECT_EQ(feed_->learnedNoise(0), nullptr);
   for (int i = 0; i < 20; ++i) {
     for (const std::size_t scanner : {0, 1}) {
-      feed_->add(scanner, wallAhead(scanner == 0 ? 0.01 : 0.03, false, random), at(10.0));
-      const auto results = all(10.0);
+      const double stamp = 10.0 + 0.1 * i;
+      feed_->add(scanner, wallAhead(stamp, scanner == 0 ? 0.01 : 0.03, false, random), at(stamp));
+      const auto results = all(stamp);
       if (i < 19) continue;
       EXPECT_NEAR(sigmaOf(results), scanner == 0 ? 0.01 : 0.03, 0.003);
     }
   }
   ASSERT_NE(feed_->learnedNoise(0), nullptr);
   const scan::RangeNoise learned = *feed_->learnedNoise(0);
-  feed_->add(0, wallAhead(0.01, true, random), at(10.0));
-  const auto results = all(10.0);
+  feed_->add(0, wallAhead(12.0, 0.01, true, random), at(12.0));
+  const auto results = all(12.0);
   const double range = results.at(0).located->scan.ranges().front();
   EXPECT_DOUBLE_EQ(sigmaOf(results), std::sqrt(learned.variance(range)));
 }

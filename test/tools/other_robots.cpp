@@ -1,6 +1,7 @@
 // Recordings of other people's robots through `offline`, row by row.
 #include "robot_edits.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -119,11 +120,21 @@ TEST(OtherRobots, Row10ScannerAtRestStaysThere) {
   RobotInput input = test::asItShouldBe();
   input.bag.moves = false;
   input.bag.seconds = 60.0;
+  input.bag.beams = 512;
   input.options = "--no-wheels --nodes odometry";
-  const RobotRun run = runOffline(input);
-  EXPECT_EQ(run.status, 0) << run.output;
-  EXPECT_LT(run.odometry_end.position, 0.01);
-  EXPECT_LT(run.odometry_end.heading, 0.5);
+  for (const std::size_t returns : {512U, 175U}) {
+    input.bag.scan = [=](sensor_msgs::LaserScan& scan, double) {
+      std::fill(scan.ranges.begin() + static_cast<std::ptrdiff_t>(returns), scan.ranges.end(),
+                std::numeric_limits<float>::infinity());
+    };
+    for (const std::string carrier : {"wheeled", "body_worn"}) {
+      input.settings = "carrier: " SIGHTLINE_SOURCE_DIR "/config/carriers/" + carrier + ".yaml\n";
+      const RobotRun run = runOffline(input);
+      EXPECT_EQ(run.status, 0) << run.output;
+      EXPECT_LT(run.odometry_end.position, 0.01) << carrier << " " << returns;
+      EXPECT_LT(run.odometry_end.heading, 0.5) << carrier << " " << returns;
+    }
+  }
 }
 
 TEST(OtherRobots, Row11PartialSweepsAreGatheredToATurn) {

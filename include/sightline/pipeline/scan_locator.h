@@ -71,6 +71,7 @@ class ScanLocator {
   void followWheels(LocatedScan& located);
   void addMotion(const ArrivedScan& arrived, std::int64_t lag, LocatedScan& located) const;
   std::optional<std::int64_t> lagOf(const ArrivedScan& arrived) const;
+  bool isOver(const ArrivedScan& arrived) const;
   void explain(const ArrivedScan& arrived, Known odometry, LocatedScan& located) const;
   void addInertial(const ArrivedScan& arrived, std::optional<std::int64_t> before,
                    LocatedScan& located) const;

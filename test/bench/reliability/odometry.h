@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "robot_edits.h"
 
 /// Faults of odometry.
