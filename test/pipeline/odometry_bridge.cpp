@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr std::int64_t kOneMillisecond = 1'000'000;
+constexpr std::int64_t kTick = 1'000'000;
 
 // A carrier on an arc, whose odometry comes every so many milliseconds; from a time on it is moved.
 class OdometryBridgeTest : public testing::Test {
@@ -23,7 +23,7 @@ class OdometryBridgeTest : public testing::Test {
     for (int tick = 0; tick <= 4000; tick += period) {
       const double time = 1e-3 * tick;
       const Pose2 pose = time >= when ? leap * truth(time) : truth(time);
-      history_.add(tick * kOneMillisecond, pose);
+      history_.add(tick * kTick, pose);
     }
   }
   // Follows at 10 Hz; returns how often it broke, and compares the last pose with the truth.
@@ -32,7 +32,7 @@ class OdometryBridgeTest : public testing::Test {
     int count = 0;
     OdometryBridge::Step step;
     for (int tick = 50; tick <= 3950; tick += 100) {
-      step = bridge_.follow(tick * kOneMillisecond, poseAt);
+      step = bridge_.follow(tick * kTick, poseAt);
       if (step.is_broken) ++count;
     }
     const Pose2 start = truth(0.05);
@@ -71,7 +71,7 @@ TEST_F(OdometryBridgeTest, OneSampleFarOffIsBridgedToo) {
   history_ = motion::PoseHistory();
   for (int tick = 0; tick <= 4000; tick += 20) {
     const Pose2 pose = truth(1e-3 * tick);
-    history_.add(tick * kOneMillisecond, tick == 2000 ? Pose2(1e4, 0.0, 0.0) * pose : pose);
+    history_.add(tick * kTick, tick == 2000 ? Pose2(1e4, 0.0, 0.0) * pose : pose);
   }
   EXPECT_GE(breaks(0.03), 1);
 }
@@ -83,7 +83,7 @@ TEST_F(OdometryBridgeTest, RoughOdometryIsNoBreak) {
   for (int tick = 0; tick <= 4000; tick += 20) {
     const Pose2 pose = truth(1e-3 * tick);
     const auto rounded = [](double value) { return 0.01 * std::round(100.0 * value); };
-    history_.add((tick + late(random)) * kOneMillisecond,
+    history_.add((tick + late(random)) * kTick,
                  Pose2(rounded(pose.x()), rounded(pose.y()), rounded(pose.theta())));
   }
   EXPECT_EQ(breaks(0.03), 0);
@@ -91,12 +91,11 @@ TEST_F(OdometryBridgeTest, RoughOdometryIsNoBreak) {
 
 TEST_F(OdometryBridgeTest, GoesOnWhereTheClockWasSet) {
   const auto poseAt = [](std::int64_t stamp) { return truth(1e-9 * static_cast<double>(stamp)); };
-  bridge_.follow(1000 * kOneMillisecond, poseAt);
+  bridge_.follow(1000 * kTick, poseAt);
   bridge_.restartClock();
-  EXPECT_FALSE(bridge_.follow(900 * kOneMillisecond, poseAt).is_broken);
+  EXPECT_FALSE(bridge_.follow(900 * kTick, poseAt).is_broken);
   bridge_.restartClock();
-  const auto step =
-      bridge_.follow(900 * kOneMillisecond, [](std::int64_t) { return Pose2(50, 0, 0); });
+  const auto step = bridge_.follow(900 * kTick, [](std::int64_t) { return Pose2(50, 0, 0); });
   EXPECT_TRUE(step.is_broken);
   EXPECT_LT(step.T_path_base.translation().norm(), 2.0);
 }
@@ -104,9 +103,9 @@ TEST_F(OdometryBridgeTest, GoesOnWhereTheClockWasSet) {
 TEST_F(OdometryBridgeTest, KnowsWhetherASweepIsWhole) {
   drive(20, 2.0, Pose2(1.0, 0.0, 0.0));
   const auto poseAt = [this](std::int64_t stamp) { return history_.at(stamp); };
-  EXPECT_TRUE(bridge_.isContinuous(1000 * kOneMillisecond, 1100 * kOneMillisecond, poseAt));
-  EXPECT_FALSE(bridge_.isContinuous(1950 * kOneMillisecond, 2050 * kOneMillisecond, poseAt));
-  EXPECT_FALSE(bridge_.isContinuous(3950 * kOneMillisecond, 4050 * kOneMillisecond, poseAt));
+  EXPECT_TRUE(bridge_.isContinuous(1000 * kTick, 1100 * kTick, poseAt));
+  EXPECT_FALSE(bridge_.isContinuous(1950 * kTick, 2050 * kTick, poseAt));
+  EXPECT_FALSE(bridge_.isContinuous(3950 * kTick, 4050 * kTick, poseAt));
 }
 
 }  // namespace
