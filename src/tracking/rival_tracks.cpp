@@ -59,8 +59,7 @@ bool areOne(const Pose2& a, const Pose2& b) {
 }
 
 double sumOfExponentials(double a, double b) {
-  const double greater = std::max(a, b);
-  return greater + std::log1p(std::exp(std::min(a, b) - greater));
+  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
 }
 
 }  // namespace
@@ -77,16 +76,15 @@ RivalTracks::RivalTracks(const TrackingContext& context, const UncertainPose2& s
 
 std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
                                                  const TrackerInput& input) {
-  if (newest_ && input.scan.stamp < *newest_) return std::nullopt;
+  const bool is_older = newest_ && input.scan.stamp < *newest_;
+  if (is_older || input.scan.beams() == 0) return std::nullopt;
   newest_ = input.scan.stamp;
-  if (input.scan.beams() == 0) return std::nullopt;
   move(context, input);
   ++scans_since_search_;
   if (isInDoubt()) look(context, input);
   thinOut();
   settle();
-  if (!is_started_) return std::nullopt;
-  return report(context);
+  return is_started_ ? std::optional(report(context)) : std::nullopt;
 }
 
 // Each hypothesis goes with the odometry and takes the scan.
