@@ -42,9 +42,8 @@ constexpr struct {
 } kRivals;
 
 UncertainPose2 uncertain(const Pose2& pose, double position, double heading) {
-  return {
-      pose,
-      Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal()};
+  const Eigen::Array3d sigmas(position, position, heading);
+  return {pose, sigmas.square().matrix().asDiagonal()};
 }
 
 bool isToBeSearched(const UncertainPose2& start) {
