@@ -55,7 +55,7 @@ TEST(RisingStamps, OfALogWithoutTimesAreASecondApartAndAfter1970) {
 
 TEST(RisingStamps, GoOnWhereTheClockWasSet) {
   const auto stamps = risingStamps(logStamped(
-      {50000 * kTenth, 50002 * kTenth, 100 * kTenth, 102 * kTenth, 90000 * 86400 * kTenth}));
+      {50000 * kTenth, 50002 * kTenth, 100 * kTenth, 102 * kTenth, kTenth * 90000 * 86400}));
   EXPECT_THAT(stamps, ElementsAre(50000 * kTenth, 50002 * kTenth, 50004 * kTenth, 50006 * kTenth,
                                   50008 * kTenth));
 }
