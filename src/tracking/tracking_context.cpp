@@ -26,12 +26,12 @@ bool hasDoors(const world::RoomMap& map, std::size_t room) {
   });
 }
 
-}  // namespace
-
-bool isVague(const TrackerConfig& config, const Eigen::Matrix3d& covariance) {
-  return std::sqrt(std::max(covariance(0, 0), covariance(1, 1))) > config.degraded_position_sigma ||
-         std::sqrt(covariance(2, 2)) > config.degraded_heading_sigma;
+bool isVague(const TrackerConfig& config, const Eigen::Matrix3d& P) {
+  return std::sqrt(std::max(P(0, 0), P(1, 1))) > config.degraded_position_sigma ||
+         std::sqrt(P(2, 2)) > config.degraded_heading_sigma;
 }
+
+}  // namespace
 
 std::optional<Pose2> TrackMemory::step(const TrackerInput& input) {
   const auto last = T_odom_base_;
@@ -46,29 +46,30 @@ void TrackMemory::restartClock() {
   stamp_ = 0;
 }
 
-TrackerState TrackMemory::judge(const TrackingContext& context, const TrackerUpdate& update) {
+TrackerState TrackMemory::judge(const TrackingContext& context, const UncertainPose2& pose,
+                                const ScanAgreement& agreement) {
   const TrackerConfig& config = context.config;
-  if (update.agreement.evidence() >= kLeastEvidence || update.is_outside) {
-    const bool disagrees = update.is_outside || update.agreement.quality() < config.lost_quality;
-    disagreeing_scans_ = disagrees ? disagreeing_scans_ + 1 : 0;
+  const bool tells = agreement.evidence() >= kLeastEvidence;
+  const bool outside =
+      context.map.rooms()[room_].distance(pose.mean.translation()) > kRooms.door_reach;
+  if (tells || outside) {
+    disagreeing_scans_ =
+        outside || agreement.quality() < config.lost_quality ? disagreeing_scans_ + 1 : 0;
   }
   if (disagreeing_scans_ >= config.lost_scans) return TrackerState::kLost;
-  const bool is_degraded = disagreeing_scans_ > 0 || isVague(config, update.pose.covariance);
+  const bool is_degraded = disagreeing_scans_ > 0 || isVague(config, pose.covariance);
   return is_degraded ? TrackerState::kDegraded : TrackerState::kTracking;
 }
 
 TrackerUpdate TrackMemory::report(const TrackingContext& context, const TrackerInput& input,
                                   const UncertainPose2& pose, const ScanAgreement& agreement) {
-  const world::Room& room = context.map.rooms()[room_];
   TrackerUpdate update;
   update.stamp = input.scan.stamp;
   update.pose = pose;
   update.T_map_odom = pose.mean * input.T_odom_base.inverse();
-  update.agreement = agreement;
-  update.is_outside = room.distance(pose.mean.translation()) > kRooms.door_reach;
+  update.state = judge(context, pose, agreement);
   update.quality = agreement.quality();
-  update.state = judge(context, update);
-  update.room = room.name;
+  update.room = context.map.rooms()[room_].name;
   return update;
 }
 

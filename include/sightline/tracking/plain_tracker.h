@@ -28,9 +28,7 @@ class PlainTracker {
   /// Adds to the standard deviations (jensfelt section 5.2: by hand) [m, rad].
   void inflate(double position_sigma, double heading_sigma);
   geometry::UncertainPose2 pose() const { return filter_.pose(); }
-  std::size_t room() const { return memory_.room(); }
-  void setRoom(std::size_t room) { memory_.setRoom(room); }
-  void restartClock() { memory_.restartClock(); }
+  TrackMemory& memory() { return memory_; }
 
  private:
   PlainFilter filter_;
