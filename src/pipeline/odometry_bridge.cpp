@@ -52,7 +52,8 @@ bool isSamePlace(const Pose2& before, const Pose2& after) {
   return step.translation().norm() < kSame && std::abs(step.theta()) < kSame;
 }
 
-OdometryBridge::Step OdometryBridge::follow(std::int64_t stamp, const PoseAt& T_odom_base) {
+OdometryBridge::Step OdometryBridge::follow(std::int64_t stamp, const PoseAt& T_odom_base,
+                                            const std::optional<scan::ElapsedTime>& elapsed) {
   const auto now = T_odom_base(stamp);
   if (!now) return {T_path_base_, false};
   if (last_stamp_ && stamp <= *last_stamp_) {
@@ -62,7 +63,7 @@ OdometryBridge::Step OdometryBridge::follow(std::int64_t stamp, const PoseAt& T_
   if (!T_odom_base_) {
     T_path_base_ = *now;
   } else if (last_stamp_) {
-    is_whole = step(stamp, T_odom_base);
+    is_whole = step(stamp, T_odom_base, elapsed);
   } else {
     // Nobody knows how long ago that was.
     is_whole = advance(*now, kBridge.pause);
@@ -74,14 +75,17 @@ OdometryBridge::Step OdometryBridge::follow(std::int64_t stamp, const PoseAt& T_
 
 // Refuses a change of speed, too, that is spread over more than one stretch: transforms are read
 // between two samples.
-bool OdometryBridge::step(std::int64_t stamp, const PoseAt& T_odom_base) {
+bool OdometryBridge::step(std::int64_t stamp, const PoseAt& T_odom_base,
+                          const std::optional<scan::ElapsedTime>& time) {
   const Pose2 start = T_path_base_;
-  const double elapsed = secondsBetween(*last_stamp_, stamp);
-  bool is_whole = walk(stamp, T_odom_base);
+  const double stamped = secondsBetween(*last_stamp_, stamp);
+  const double elapsed = time ? time->usual : stamped;
+  const double longest = time ? std::max(time->longest, stamped) : stamped;
+  bool is_whole = walk(stamp, T_odom_base, longest - stamped);
   if (velocity_) {
     const Pose2 expected = Pose2::exp(std::min(elapsed, kBridge.pause) * *velocity_);
     const Pose2 change = geometry::between(start * expected, T_path_base_);
-    const double most = 0.5 * kBridge.acceleration * elapsed * elapsed + kBridge.position;
+    const double most = 0.5 * kBridge.acceleration * longest * longest + kBridge.position;
     if (change.translation().norm() > most) {
       T_path_base_ = start * expected;
       is_whole = false;
@@ -92,7 +96,8 @@ bool OdometryBridge::step(std::int64_t stamp, const PoseAt& T_odom_base) {
 }
 
 // Goes stretch by stretch, so that a short break among motion is found, and costs no more of it.
-bool OdometryBridge::walk(std::int64_t stamp, const PoseAt& T_odom_base) {
+// `slack` is the time that may have passed besides that of the stamps [s].
+bool OdometryBridge::walk(std::int64_t stamp, const PoseAt& T_odom_base, double slack) {
   const std::int64_t begin = *last_stamp_;
   const std::int64_t stretches = stretchesBetween(begin, stamp);
   std::int64_t before = begin;
@@ -101,7 +106,7 @@ bool OdometryBridge::walk(std::int64_t stamp, const PoseAt& T_odom_base) {
     const std::int64_t next = begin + (stamp - begin) * i / stretches;
     const auto pose = T_odom_base(next);
     if (!pose) continue;
-    is_whole = advance(*pose, secondsBetween(before, next)) && is_whole;
+    is_whole = advance(*pose, secondsBetween(before, next) + slack) && is_whole;
     before = next;
   }
   return is_whole;

@@ -88,7 +88,7 @@ ScanLocator::Outcome ScanLocator::locate(const ArrivedScan& arrived, const Patie
   outcome.located.emplace();
   place(arrived, T_base_carried, *outcome.located);
   if (odometry == Known::kYes) {
-    if (needs_.mounting) followWheels(*outcome.located);
+    if (needs_.mounting) followWheels(arrived, *outcome.located);
     addMotion(arrived, 0, *outcome.located);
   } else if (const auto lag = lagOf(arrived); lag && odometry == Known::kNot) {
     addMotion(arrived, *lag, *outcome.located);
@@ -221,11 +221,12 @@ void ScanLocator::maskBody(const ArrivedScan& arrived, LocatedScan& located) con
   pipeline::maskBody(sectors->second, *located.T_base_sensor, located.scan);
 }
 
-void ScanLocator::followWheels(LocatedScan& located) {
+void ScanLocator::followWheels(const ArrivedScan& arrived, LocatedScan& located) {
   const std::int64_t stamp = located.scan.stamp;
   located.T_odom_base = T_odom_base(stamp);
   if (!located.T_odom_base) return;
-  const auto step = bridge_.follow(stamp, [this](std::int64_t time) { return T_odom_base(time); });
+  const auto step = bridge_.follow(
+      stamp, [this](std::int64_t time) { return T_odom_base(time); }, arrived.elapsed);
   located.T_path_base = step.T_path_base;
   located.odometry_broke = step.is_broken;
 }

@@ -89,6 +89,18 @@ TEST_F(OdometryBridgeTest, RoughOdometryIsNoBreak) {
   EXPECT_EQ(breaks(0.03), 0);
 }
 
+// Stamps of arrival: four scans in 3 ms, then a pause.
+TEST_F(OdometryBridgeTest, StampsInBurstsAreNoLeaps) {
+  const scan::ElapsedTime period{0.2, 0.8, 0.004};
+  int broken = 0;
+  for (int i = 0; i < 40; ++i) {
+    const std::int64_t stamp = (i / 4 * 800 + i % 4) * kTick;
+    const auto poseAt = [&](std::int64_t) { return truth(0.2 * i); };
+    broken += bridge_.follow(stamp, poseAt, period).is_broken;
+  }
+  EXPECT_EQ(broken, 0);
+}
+
 TEST_F(OdometryBridgeTest, GoesOnWhereTheClockWasSet) {
   const auto poseAt = [](std::int64_t stamp) { return truth(1e-9 * static_cast<double>(stamp)); };
   bridge_.follow(1000 * kTick, poseAt);

@@ -8,6 +8,7 @@
 
 #include "sightline/config/fields.h"
 #include "sightline/geometry/pose2.h"
+#include "sightline/scan/elapsed_time.h"
 
 namespace sightline::pipeline {
 
@@ -41,16 +42,18 @@ class OdometryBridge {
   explicit OdometryBridge(const OdometryLimits& limits) : limits_(limits) {}
 
   /// Follows the odometry to a time at which it is known. A time before the last one is read on
-  /// from there.
-  Step follow(std::int64_t stamp, const PoseAt& T_odom_base);
+  /// from there. `elapsed` is the time since the last one where the stamps do not tell it.
+  Step follow(std::int64_t stamp, const PoseAt& T_odom_base,
+              const std::optional<scan::ElapsedTime>& elapsed = {});
   /// The clock was set: the path goes on where the odometry does.
   void restartClock() { last_stamp_.reset(); }
   /// Whether the carrier can have moved between two times as the odometry says.
   bool isContinuous(std::int64_t from, std::int64_t to, const PoseAt& T_odom_base) const;
 
  private:
-  bool step(std::int64_t stamp, const PoseAt& T_odom_base);
-  bool walk(std::int64_t stamp, const PoseAt& T_odom_base);
+  bool step(std::int64_t stamp, const PoseAt& T_odom_base,
+            const std::optional<scan::ElapsedTime>& elapsed);
+  bool walk(std::int64_t stamp, const PoseAt& T_odom_base, double slack);
   bool advance(const geometry::Pose2& T_odom_base, double seconds);
 
   OdometryLimits limits_;

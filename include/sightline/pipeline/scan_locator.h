@@ -68,7 +68,7 @@ class ScanLocator {
   void place(const ArrivedScan& arrived, const std::optional<Eigen::Isometry3d>& T_base_carried,
              LocatedScan& located);
   void maskBody(const ArrivedScan& arrived, LocatedScan& located) const;
-  void followWheels(LocatedScan& located);
+  void followWheels(const ArrivedScan& arrived, LocatedScan& located);
   void addMotion(const ArrivedScan& arrived, std::int64_t lag, LocatedScan& located) const;
   std::optional<std::int64_t> lagOf(const ArrivedScan& arrived) const;
   bool isOver(const ArrivedScan& arrived) const;
