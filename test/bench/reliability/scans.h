@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reliability/odometry.h"
+#include "odometry.h"
 
 /// Faults of scans, their stamps, frames and topics.
 namespace sightline::bench {
