@@ -24,10 +24,19 @@ struct Level {
   std::size_t beams;
 };
 
-std::vector<Level> levelsOf(const Scan& scan) {
+double largestRange(const Scan& scan) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    if (scan.isValid(i)) largest = std::max(largest, scan.ranges()[i]);
+  }
+  return largest;
+}
+
+// Of ranges from `least` on, rising.
+std::vector<Level> levelsOf(const Scan& scan, double least) {
   std::vector<double> ranges;
   for (std::size_t i = 0; i < scan.beams(); ++i) {
-    if (scan.isValid(i)) ranges.push_back(scan.ranges()[i]);
+    if (scan.isValid(i) && scan.ranges()[i] >= least) ranges.push_back(scan.ranges()[i]);
   }
   std::sort(ranges.begin(), ranges.end());
   std::vector<Level> levels;
@@ -68,8 +77,9 @@ double widestWall(double range, double step) {
   return std::isfinite(step) ? 2.0 * std::sqrt(2.0 * step / range) : 0.0;
 }
 
-bool isMiss(const Scan& scan, const std::vector<Level>& levels, const Level& level) {
+bool isMiss(const Scan& scan, const Level& level) {
   if (level.beams < kMisses.beams) return false;
+  const std::vector<Level> levels = levelsOf(scan, 0.0);
   std::size_t most_common = 1;
   for (const Level& other : levels) {
     if (other.range != level.range) most_common = std::max(most_common, other.beams);
@@ -89,17 +99,16 @@ void MissValue::forgetBelow(double range) {
 }
 
 void MissValue::mark(Scan& scan) {
-  const std::vector<Level> levels = levelsOf(scan);
-  if (levels.empty()) return;
-  const double end = kMisses.end * levels.back().range;
+  const double largest = largestRange(scan);
+  if (largest <= 0.0) return;
+  const double end = kMisses.end * largest;
   forgetBelow(end);
   const auto isKnown = [this](double range) {
     return std::find(values_.begin(), values_.end(), range) != values_.end();
   };
-  const auto first = std::lower_bound(levels.begin(), levels.end(), end,
-                                      [](const Level& level, double r) { return level.range < r; });
-  const Level& candidate = *std::max_element(first, levels.end(), isRarer);
-  if (!isKnown(candidate.range) && isMiss(scan, levels, candidate)) {
+  const std::vector<Level> farthest = levelsOf(scan, end);
+  const Level& candidate = *std::max_element(farthest.begin(), farthest.end(), isRarer);
+  if (!isKnown(candidate.range) && isMiss(scan, candidate)) {
     values_.push_back(candidate.range);
   }
   for (std::size_t i = 0; !values_.empty() && i < scan.beams(); ++i) {
