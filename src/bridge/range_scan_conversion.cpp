@@ -66,15 +66,7 @@ RangeScan toMessage(const motion::RangeScan& range_scan) {
 
 sensor_msgs::LaserScan toLaserScan(const RangeScan& message) {
   constexpr float kNanoamperes = 1e9F;  // in an ampere
-  sensor_msgs::LaserScan scan;
-  scan.header = message.header;
-  scan.angle_min = message.angle_min;
-  scan.angle_max = message.angle_max;
-  scan.angle_increment = message.angle_increment;
-  scan.time_increment = message.time_increment;
-  scan.scan_time = message.scan_time;
-  scan.range_min = message.range_min;
-  scan.range_max = message.range_max;
+  sensor_msgs::LaserScan scan = withoutRanges(message);
   scan.ranges = message.ranges;
   for (const float current : message.currents) scan.intensities.push_back(kNanoamperes * current);
   return scan;

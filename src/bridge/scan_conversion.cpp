@@ -132,15 +132,7 @@ sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& messag
   const auto first = [](const sensor_msgs::LaserEcho& echo, float none) {
     return echo.echoes.empty() ? none : echo.echoes.front();
   };
-  sensor_msgs::LaserScan scan;
-  scan.header = message.header;
-  scan.angle_min = message.angle_min;
-  scan.angle_max = message.angle_max;
-  scan.angle_increment = message.angle_increment;
-  scan.time_increment = message.time_increment;
-  scan.scan_time = message.scan_time;
-  scan.range_min = message.range_min;
-  scan.range_max = message.range_max;
+  sensor_msgs::LaserScan scan = withoutRanges(message);
   for (const auto& echo : message.ranges) scan.ranges.push_back(first(echo, kNothing));
   for (const auto& echo : message.intensities) scan.intensities.push_back(first(echo, 0.0F));
   return scan;

@@ -41,6 +41,21 @@ class ScanReader {
   std::map<std::string, std::string> mended_;  // by field
 };
 
+/// What another message of a sweep says of it as a LaserScan, but for the ranges.
+template <class Message>
+sensor_msgs::LaserScan withoutRanges(const Message& message) {
+  sensor_msgs::LaserScan scan;
+  scan.header = message.header;
+  scan.angle_min = message.angle_min;
+  scan.angle_max = message.angle_max;
+  scan.angle_increment = message.angle_increment;
+  scan.time_increment = message.time_increment;
+  scan.scan_time = message.scan_time;
+  scan.range_min = message.range_min;
+  scan.range_max = message.range_max;
+  return scan;
+}
+
 /// Scan of the first echo of each beam; a beam without one saw nothing.
 sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& message);
 
