@@ -18,13 +18,6 @@ namespace {
 constexpr std::array<const char*, 4> kBases{"base_footprint", "base_link", "base", "robot_base"};
 const ros::Duration kWholeRecording(1e6);
 
-bool isFinite(const geometry_msgs::Transform& transform) {
-  const auto& t = transform.translation;
-  const auto& r = transform.rotation;
-  const double sum = t.x + t.y + t.z + r.x + r.y + r.z + r.w;
-  return std::isfinite(sum) && r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w > 0.5;
-}
-
 }  // namespace
 
 FramesCheck::FramesCheck(const pipeline::Frames& frames)
@@ -47,7 +40,9 @@ void FramesCheck::takeTransform(geometry_msgs::TransformStamped transform, bool 
   link.is_static = is_static;
   link.stamp = stamp;
   ++link.messages;
-  if (!isFinite(transform.transform)) return void(++not_finite_);
+  const auto& t = transform.transform.translation;
+  const std::string fault = faultOfPose({t.x, t.y, t.z}, transform.transform.rotation);
+  if (!fault.empty()) return void(++refused_[fmt::format("{} to {}: {}", parent, child, fault)]);
   if (!is_static) takeOdometry(transform);
   buffer_.setTransform(transform, "recording", is_static);
 }
@@ -55,11 +50,11 @@ void FramesCheck::takeTransform(geometry_msgs::TransformStamped transform, bool 
 void FramesCheck::takeOdometry(const geometry_msgs::TransformStamped& transform) {
   const bool is_named = transform.header.frame_id == frames_.odom;
   if (!is_named && transform.child_frame_id != frames_.base) return;
-  logs::OdometryCheck& check = is_named ? odometry_ : of_base_;
+  OdometryCheck& check = is_named ? odometry_ : of_base_;
   check.add(nanoseconds(transform.header.stamp), toPose2(transform.transform));
 }
 
-const logs::OdometryCheck& FramesCheck::odometry() const {
+const OdometryCheck& FramesCheck::odometry() const {
   return odometry_.poses().empty() ? of_base_ : odometry_;
 }
 
@@ -89,7 +84,6 @@ std::optional<Mounting> FramesCheck::mounting(const std::string& frame, std::int
   const Eigen::Matrix3d R = T_base_sensor->rotation();
   Mounting mounting;
   mounting.upside_down = R(2, 2) < 0.0;
-  mounting.tilt = std::acos(std::min(1.0, std::abs(R(2, 2))));
   mounting.T_base_sensor = {T_base_sensor->translation().head<2>(), std::atan2(R(1, 0), R(0, 0))};
   return mounting;
 }
@@ -120,8 +114,8 @@ Findings FramesCheck::findings() const {
                                           link.repeated, link.messages, child));
     }
   }
-  if (not_finite_ > 0) {
-    add(Severity::kError, fmt::format("{} transforms are no numbers or no rotations", not_finite_));
+  for (const auto& [reason, count] : refused_) {
+    add(Severity::kError, fmt::format("{} transforms left out, {}", count, reason));
   }
   if (with_slash_ > 0) {
     add(Severity::kNote, "frames are written with a leading slash, which is left away");

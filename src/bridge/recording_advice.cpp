@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/recording_check.h"
 #include "sightline/geometry/angle.h"
 
@@ -93,7 +92,7 @@ std::string RecordingCheck::bodyOf(const ScannerCheck& scanner) const {
         fmt::format("{:.3f}, {:.3f}", geometry::wrapAngle(from), geometry::wrapAngle(to)));
   }
   if (angles.empty()) return "";
-  return fmt::format("  {}: [{}]\n", withoutSlash(scanner.frame()), fmt::join(angles, ", "));
+  return fmt::format("  {}: [{}]\n", scanner.frame(), fmt::join(angles, ", "));
 }
 
 std::string RecordingCheck::settings() const {
@@ -104,7 +103,7 @@ std::string RecordingCheck::settings() const {
     topics.push_back(topic);
     bodies += bodyOf(scanner);
     if (!isMounted(scanner)) {
-      mountings += fmt::format("  {}: [0.0, 0.0, 0.0]\n", withoutSlash(scanner.frame()));
+      mountings += fmt::format("  {}: [0.0, 0.0, 0.0]\n", scanner.frame());
     }
   }
   std::string text = fmt::format("scans: [{}]\nframes: {{map: map, odom: {}, base: {}}}\n",
@@ -151,7 +150,7 @@ plot::Figure RecordingCheck::figure(const Motion& motion) const {
   }
   path.series.push_back(pathOf("scans alone", motion.path));
   plot::Panel view{"First scan in the scanner's frame", "x [m]", "y [m]", "", 0.0, {}};
-  if (!kept_.empty()) view.series.push_back(pointsOf(kept_.front()));
+  if (!kept_.empty()) view.series.push_back(pointsOf(kept_.begin()->second.front()));
   plot::Figure figure;
   figure.columns = 2;
   for (plot::Panel* panel : {&steps, &ranges, &path, &view}) addPanel(figure, std::move(*panel));

@@ -15,22 +15,15 @@ using geometry::degrees;
 
 constexpr std::size_t kKept = 3000;   // scans whose motion is looked at
 constexpr std::size_t kSamples = 50;  // stamps at which transforms are asked for
-constexpr double kMostTilt = 0.09;    // 5 degrees, of a scanner that keeps level
 
-void addPoses(const logs::OdometrySummary& poses, Section& section) {
+void addPoses(const OdometrySummary& poses, Section& section) {
   section.facts.push_back(fmt::format("{} poses, {:.1f} m driven, {:.0f} degrees turned",
                                       poses.poses, poses.distance, degrees(poses.turned)));
-  if (poses.refused > 0) {
-    section.findings.push_back(
-        {Severity::kError, fmt::format("{} of {} poses are no numbers, or more than 1000 km away",
-                                       poses.refused, poses.poses)});
-  }
-  if (poses.jumps > 0) {
-    section.findings.push_back(
-        {Severity::kWarning,
-         fmt::format("{} jumps that no carrier makes, the first at {:.3f} s", poses.jumps,
-                     1e-9 * static_cast<double>(*poses.first_jump))});
-  }
+  if (poses.jumps == 0) return;
+  section.findings.push_back(
+      {Severity::kWarning,
+       fmt::format("{} jumps that no carrier makes, the first at {:.3f} s", poses.jumps,
+                   1e-9 * static_cast<double>(*poses.first_jump))});
 }
 
 }  // namespace
@@ -44,8 +37,7 @@ void RecordingCheck::count(const std::string& topic, const std::string& type) {
 void RecordingCheck::take(const std::string& topic, const sensor_msgs::LaserScan& message,
                           std::int64_t arrival) {
   scanners_[topic].take(message, arrival);
-  const bool is_first = kept_.empty() || kept_.front().header.frame_id == message.header.frame_id;
-  if (kept_.size() < kKept && is_first) kept_.push_back(message);
+  if (auto& kept = kept_[topic]; kept.size() < kKept) kept.push_back(message);
 }
 
 void RecordingCheck::take(const std::string& topic, const sensor_msgs::MultiEchoLaserScan& message,
@@ -58,7 +50,14 @@ void RecordingCheck::take(const std::string& topic, const nav_msgs::Odometry& me
   Wheels& wheels = wheels_[topic];
   const std::int64_t stamp = nanoseconds(message.header.stamp);
   wheels.stamps.add(stamp, arrival);
-  wheels.poses.add(stamp, toPose2(message.pose.pose));
+  const auto& position = message.pose.pose.position;
+  const std::string fault =
+      faultOfPose({position.x, position.y, position.z}, message.pose.pose.orientation);
+  if (fault.empty()) {
+    wheels.poses.add(stamp, toPose2(message.pose.pose));
+  } else {
+    ++wheels.refused[fault];
+  }
   wheels.odom = withoutSlash(message.header.frame_id);
   wheels.base = withoutSlash(message.child_frame_id);
 }
@@ -88,6 +87,11 @@ Section RecordingCheck::scannerSection(const std::string& topic,
                                        const ScannerCheck& scanner) const {
   Section section{"Scans on " + topic, {scanner.description()}, scanner.findings()};
   addMounting(scanner, section.findings);
+  for (const auto& [reason, count] : pass(kept_.at(topic), [](const pipeline::LocatedScan&) {})) {
+    section.findings.push_back(
+        {Severity::kError,
+         fmt::format("{} of {} scans are left out: {}", count, kept_.at(topic).size(), reason)});
+  }
   return section;
 }
 
@@ -115,12 +119,6 @@ void RecordingCheck::addMounting(const ScannerCheck& scanner, Findings& findings
       {Severity::kNote,
        fmt::format("mounted at x {:.3f} m, y {:.3f} m, turned by {:.1f} degrees{}", pose.x(),
                    pose.y(), degrees(pose.theta()), mounting->upside_down ? ", upside down" : "")});
-  if (mounting->tilt > kMostTilt) {
-    findings.push_back(
-        {Severity::kError, fmt::format("the scanner's plane is {:.0f} degrees from level: is {} an "
-                                       "optical frame?",
-                                       degrees(mounting->tilt), scanner.frame())});
-  }
   if (reached < asked) {
     findings.push_back(
         {Severity::kWarning,
@@ -144,6 +142,10 @@ Section RecordingCheck::wheelsSection(const std::string& topic, const Wheels& wh
                   {}};
   addStampFindings(wheels.stamps.summary(), section.findings);
   addPoses(wheels.poses.summary(), section);
+  for (const auto& [reason, count] : wheels.refused) {
+    section.findings.push_back(
+        {Severity::kError, fmt::format("{} poses are left out: {}", count, reason)});
+  }
   return section;
 }
 

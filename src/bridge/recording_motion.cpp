@@ -35,15 +35,32 @@ pipeline::Frames RecordingCheck::names() const {
   return names;
 }
 
-RecordingCheck::Motion RecordingCheck::motionOfScans() const {
+std::map<std::string, std::size_t> RecordingCheck::pass(
+    const std::deque<sensor_msgs::LaserScan>& scans,
+    const std::function<void(const pipeline::LocatedScan&)>& take) const {
   const TfTransforms transforms(frames_.transforms());
   pipeline::ScanFeed feed(feedOfScansAlone(), names(), {true, false}, transforms);
   FeedInput input(feed, transforms, frames_.base());
   const std::size_t scanner = input.addScanner();
-  pipeline::ScanOdometry odometry({});
+  for (const sensor_msgs::LaserScan& scan : scans) {
+    try {
+      input.take(scanner, scan, nanoseconds(scan.header.stamp));
+    } catch (const BadMessage&) {
+      continue;  // counted by the feed
+    }
+    while (const auto result = feed.flush()) {
+      if (result->located) take(*result->located);
+    }
+  }
+  return feed.counts(scanner).dropped;
+}
+
+RecordingCheck::Motion RecordingCheck::motionOfScans() const {
   Motion motion;
+  if (kept_.empty()) return motion;
+  pipeline::ScanOdometry odometry({});
   std::optional<std::int64_t> before;
-  const auto take = [&](const pipeline::LocatedScan& located) {
+  pass(kept_.begin()->second, [&](const pipeline::LocatedScan& located) {
     const auto update = odometry.update(located);
     if (!update) return;
     ++motion.scans;
@@ -53,17 +70,7 @@ RecordingCheck::Motion RecordingCheck::motionOfScans() const {
     }
     before = update->stamp;
     motion.path.push_back({update->stamp, update->pose.mean});
-  };
-  for (const sensor_msgs::LaserScan& scan : kept_) {
-    try {
-      input.take(scanner, scan, nanoseconds(scan.header.stamp));
-    } catch (const BadMessage&) {
-      continue;  // the section of the scanner tells
-    }
-    while (const auto result = feed.flush()) {
-      if (result->located) take(*result->located);
-    }
-  }
+  });
   return motion;
 }
 

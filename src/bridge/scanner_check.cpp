@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
 #include "sightline/geometry/angle.h"
 
@@ -20,49 +21,39 @@ void add(Findings& findings, Severity severity, std::string text) {
   findings.push_back({severity, std::move(text)});
 }
 
-// Number of beams that angles and increment speak of.
-double beamsOf(const sensor_msgs::LaserScan& message) {
-  return (message.angle_max - message.angle_min) / message.angle_increment + 1.0;
-}
-
 }  // namespace
 
 void ScannerCheck::take(const sensor_msgs::LaserScan& message, std::int64_t arrival) {
   stamps_.add(nanoseconds(message.header.stamp), arrival);
-  ranges_.add(message.ranges, message.range_min, message.range_max);
-  checkHeader(message);
+  try {
+    read(message);
+  } catch (const scan::InvalidScan& fault) {
+    ++unread_[fault.what()];
+  }
+  if (!last_.ranges.empty()) compare(message);
   last_ = message;
 }
 
-void ScannerCheck::checkHeader(const sensor_msgs::LaserScan& message) {
-  const auto beams = static_cast<double>(message.ranges.size());
-  if (message.ranges.empty()) return void(++faults_["no ranges"]);
-  if (!std::isfinite(message.angle_increment) || message.angle_increment == 0.0F) {
-    return void(++faults_["an increment of angles that is zero or no number"]);
-  }
-  if (std::abs(beamsOf(message) - beams) > 1.5) ++faults_["angles for another number of beams"];
-  if (!(message.range_min < message.range_max)) ++faults_["range_min not below range_max"];
-  if (!message.intensities.empty() && message.intensities.size() != message.ranges.size()) {
-    ++faults_["another number of intensities than of ranges"];
-  }
-  if (!last_.ranges.empty() && last_.ranges.size() != message.ranges.size()) {
-    ++faults_["another number of beams than the scan before"];
-  }
-  if (!last_.ranges.empty() && last_.header.frame_id != message.header.frame_id) {
-    ++faults_["another frame than the scan before"];
-  }
+void ScannerCheck::read(const sensor_msgs::LaserScan& message) {
+  scan::Scan scan = reader_.read(message);
+  misses_.mark(scan);
+  ranges_.add(scan);
+  sweep_ = std::abs(scan.duration());
 }
 
-double ScannerCheck::sweep() const {
-  const double steps = last_.ranges.empty() ? 0.0 : static_cast<double>(last_.ranges.size() - 1);
-  return std::abs(static_cast<double>(last_.time_increment)) * steps;
+void ScannerCheck::compare(const sensor_msgs::LaserScan& message) {
+  if (last_.ranges.size() != message.ranges.size()) ++changes_["another number of beams"];
+  if (last_.header.frame_id != message.header.frame_id) ++changes_["another frame"];
+}
+
+std::string ScannerCheck::frame() const {
+  return withoutSlash(last_.header.frame_id);
 }
 
 std::string ScannerCheck::description() const {
   const logs::StampSummary stamps = stamps_.summary();
   return fmt::format(
-      "{} scans, {:.2f} Hz, {} beams from {:.1f} to {:.1f} degrees, {:.3g} to {:.3g} m, "
-      "frame {}",
+      "{} scans, {:.2f} Hz, {} beams from {:.1f} to {:.1f} degrees, {:.3g} to {:.3g} m, frame {}",
       stamps.messages, stamps.period > 0.0 ? 1.0 / stamps.period : 0.0, last_.ranges.size(),
       degrees(last_.angle_min), degrees(last_.angle_max), last_.range_min, last_.range_max,
       frame());
@@ -70,49 +61,56 @@ std::string ScannerCheck::description() const {
 
 Findings ScannerCheck::findings() const {
   Findings findings;
-  for (const auto& [fault, count] : faults_) {
-    add(findings, Severity::kError,
-        fmt::format("{} of {} scans: {}", count, ranges_.summary().scans, fault));
-  }
-  bridge::addStampFindings(stamps_.summary(), findings);
-  addStampFindings(findings);
-  addRangeFindings(findings);
+  addFaults(findings);
+  addStampFindings(stamps_.summary(), findings);
+  addSweep(findings);
+  addRanges(findings);
   return findings;
 }
 
-void ScannerCheck::addStampFindings(Findings& findings) const {
-  const double period = stamps_.summary().period;
-  if (sweep() == 0.0) {
-    add(findings, Severity::kNote,
-        "no time between beams: each scan is taken for a snapshot, or for a sweep that dead "
-        "reckoning works out");
-  } else if (period > 0.0 && sweep() > kLongSweep * period) {
+void ScannerCheck::addFaults(Findings& findings) const {
+  for (const auto& [fault, count] : unread_) {
+    add(findings, Severity::kError, fmt::format("{} messages are no scans: {}", count, fault));
+  }
+  for (const auto& [field, text] : reader_.mended()) add(findings, Severity::kWarning, text);
+  for (const auto& [what, count] : changes_) {
     add(findings, Severity::kWarning,
-        fmt::format("the sweep would last {:.3g} s by time_increment, with {:.3g} s from scan to "
-                    "scan: the increment is in another unit than seconds",
-                    sweep(), period));
+        fmt::format("{} times {} than in the scan before", count, what));
   }
 }
 
-void ScannerCheck::addRangeFindings(Findings& findings) const {
+void ScannerCheck::addSweep(Findings& findings) const {
+  const double period = stamps_.summary().period;
+  if (sweep_ == 0.0) {
+    add(findings, Severity::kNote,
+        "no time between beams: each scan is taken for a snapshot, or for a sweep that dead "
+        "reckoning works out");
+  } else if (period > 0.0 && sweep_ > kLongSweep * period) {
+    add(findings, Severity::kWarning,
+        fmt::format("by time_increment the sweep lasts {:.3g} s, with {:.3g} s from scan to scan",
+                    sweep_, period));
+  }
+}
+
+void ScannerCheck::addRanges(Findings& findings) const {
   const logs::RangeSummary summary = ranges_.summary();
+  const std::string step =
+      summary.step > 0.0 ? fmt::format("; in steps of {:.3g} m", summary.step) : "";
   add(findings, Severity::kNote,
       fmt::format("{:.1f} % of the readings valid, {:.1f} % nothing there, {:.1f} % too near, "
-                  "{:.1f} % zero, {:.1f} % no number{}",
+                  "{:.1f} % invalid{}",
                   100.0 * summary.valid, 100.0 * summary.nothing, 100.0 * summary.too_near,
-                  100.0 * summary.zero, 100.0 * summary.not_a_number,
-                  summary.resolution > 0.0 ? fmt::format("; in steps of {:g} m", summary.resolution)
-                                           : std::string()));
+                  100.0 * summary.invalid, step));
   if (summary.valid < kFewValid) {
     add(findings, Severity::kError,
         fmt::format("hardly a reading lies between range_min {:.3g} and range_max {:.3g} m",
                     last_.range_min, last_.range_max));
   }
-  if (summary.misses_as_ranges && summary.largest <= last_.range_max) {
+  for (const double miss : misses_.values()) {
     add(findings, Severity::kWarning,
-        fmt::format("{:.1f} % of the readings are {:.3f} m, the largest there is: beams without a "
-                    "return come as ranges; a driver should report them as inf",
-                    100.0 * summary.at_largest, summary.largest));
+        fmt::format("beams without a return come as {:.3f} m, and are taken for nothing there; a "
+                    "driver should report them as inf",
+                    miss));
   }
   addBody(summary, findings);
 }

@@ -55,7 +55,7 @@ TEST_F(CheckBag, FindsMissesThatComeAsRanges) {
   robot.scan = [](sensor_msgs::LaserScan& scan, double) {
     for (std::size_t i = 0; i < scan.ranges.size(); i += 10) scan.ranges[i] = 11.95F;
   };
-  EXPECT_THAT(check(robot).output, HasSubstr("beams without a return come as ranges"));
+  EXPECT_THAT(check(robot).output, HasSubstr("beams without a return come as 11.950 m"));
 }
 
 TEST_F(CheckBag, FindsJumpsOfTheOdometry) {
@@ -78,7 +78,7 @@ TEST_F(CheckBag, FindsAScannerThatIsNotLevel) {
   };
   const auto result = check(robot);
   EXPECT_EQ(result.status, 3) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("90 degrees from level"));
+  EXPECT_THAT(result.output, HasSubstr("tilted by 90 degrees"));
 }
 
 TEST_F(CheckBag, SaysThatNoTransformReachesTheScanner) {

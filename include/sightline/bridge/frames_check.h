@@ -10,8 +10,8 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "sightline/bridge/finding.h"
+#include "sightline/bridge/odometry_check.h"
 #include "sightline/geometry/pose2.h"
-#include "sightline/logs/odometry_check.h"
 #include "sightline/pipeline/feed_config.h"
 
 namespace sightline::bridge {
@@ -20,7 +20,6 @@ namespace sightline::bridge {
 struct Mounting {
   geometry::Pose2 T_base_sensor;
   bool upside_down = false;
-  double tilt = 0.0;  ///< between the scanner's axis and the vertical, 0 to 90 degrees [rad]
 };
 
 /// Gathers the transforms of a recording and what they reach.
@@ -34,7 +33,7 @@ class FramesCheck {
   std::string base() const;
   std::string odom() const;
   /// Poses in odom as they were sent, or of the base in its parent where there is no odom.
-  const logs::OdometryCheck& odometry() const;
+  const OdometryCheck& odometry() const;
   /// Mounting of a frame at a stamp [ns]; nothing where the transforms do not reach it.
   std::optional<Mounting> mounting(const std::string& frame, std::int64_t stamp) const;
   /// What is wrong with the tree itself.
@@ -59,9 +58,9 @@ class FramesCheck {
   tf2::BufferCore buffer_;
   std::map<std::string, Link> links_;  // by child
   std::size_t with_slash_ = 0;
-  std::size_t not_finite_ = 0;
-  logs::OdometryCheck odometry_;
-  logs::OdometryCheck of_base_;
+  std::map<std::string, std::size_t> refused_;  // transforms that are none, by reason
+  OdometryCheck odometry_;
+  OdometryCheck of_base_;
 };
 
 }  // namespace sightline::bridge

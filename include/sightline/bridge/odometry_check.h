@@ -5,14 +5,14 @@
 #include <optional>
 
 #include "sightline/logs/trajectory.h"
+#include "sightline/pipeline/odometry_bridge.h"
 
-namespace sightline::logs {
+namespace sightline::bridge {
 
 /// What a recorded odometry is like.
 struct OdometrySummary {
   std::size_t poses = 0;
-  std::size_t refused = 0;                 ///< not finite, or 1000 km and more from the origin
-  std::size_t jumps = 0;                   ///< steps that no carrier makes
+  std::size_t jumps = 0;                   ///< steps that OdometryLimits do not allow
   std::optional<std::int64_t> first_jump;  ///< stamp behind it [ns]
   double distance = 0.0;                   ///< without the jumps [m]
   double turned = 0.0;                     ///< sum of turns without their signs [rad]
@@ -24,12 +24,12 @@ class OdometryCheck {
   /// T_odom_base at a stamp [ns]; stamps that do not rise are left out.
   void add(std::int64_t stamp, const geometry::Pose2& pose);
   const OdometrySummary& summary() const { return summary_; }
-  /// All but the refused.
-  const Trajectory& poses() const { return poses_; }
+  const logs::Trajectory& poses() const { return poses_; }
 
  private:
+  pipeline::OdometryLimits limits_;
   OdometrySummary summary_;
-  Trajectory poses_;
+  logs::Trajectory poses_;
 };
 
-}  // namespace sightline::logs
+}  // namespace sightline::bridge

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "sightline/bridge/recording_report.h"
 #include "sightline/bridge/scanner_check.h"
 #include "sightline/logs/step_comparison.h"
+#include "sightline/pipeline/located_scan.h"
 
 namespace sightline::bridge {
 
@@ -46,7 +48,8 @@ class RecordingCheck {
   };
   struct Wheels {
     logs::StampCheck stamps;
-    logs::OdometryCheck poses;
+    OdometryCheck poses;
+    std::map<std::string, std::size_t> refused;  // poses that are none, by reason
     std::string odom;
     std::string base;
   };
@@ -66,6 +69,11 @@ class RecordingCheck {
   void addMounting(const ScannerCheck& scanner, Findings& findings) const;
   void addOffset(const logs::StepComparison& comparison, Findings& findings) const;
   Motion motionOfScans() const;
+  /// Passes kept scans through a feed, as estimators get them, and hands them to `take`. Returns
+  /// the number of those that were left out, by reason.
+  std::map<std::string, std::size_t> pass(
+      const std::deque<sensor_msgs::LaserScan>& scans,
+      const std::function<void(const pipeline::LocatedScan&)>& take) const;
   /// The odometry that estimators would take: that of the transforms, otherwise that of a topic.
   const logs::Trajectory* odometry() const;
   bool isMounted(const ScannerCheck& scanner) const;
@@ -82,7 +90,7 @@ class RecordingCheck {
   std::map<std::string, ScannerCheck> scanners_;  // by topic
   std::map<std::string, Wheels> wheels_;
   std::map<std::string, logs::StampCheck> imus_;
-  std::deque<sensor_msgs::LaserScan> kept_;  // of the first scanner
+  std::map<std::string, std::deque<sensor_msgs::LaserScan>> kept_;  // by topic
 };
 
 }  // namespace sightline::bridge

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <vector>
+
+#include "sightline/scan/range_step.h"
+#include "sightline/scan/scan.h"
 
 namespace sightline::logs {
 
@@ -18,18 +21,12 @@ struct BeamSector {
 /// What the ranges of a scanner are like. Shares in [0, 1], of all readings.
 struct RangeSummary {
   std::size_t scans = 0;
-  std::size_t beams = 0;  ///< of a scan; of the first where they differ
-  double valid = 0.0;     ///< within the limits
-  double nothing = 0.0;   ///< +Inf, or beyond range_max
-  double too_near = 0.0;  ///< −Inf, or positive below range_min
-  double zero = 0.0;      ///< 0 or negative
-  double not_a_number = 0.0;
-  /// Largest range that is reported, and the share that has it: where that is more than a surface
-  /// could bring, beams without a return are reported so.
-  double largest = 0.0;
-  double at_largest = 0.0;
-  bool misses_as_ranges = false;
-  double resolution = 0.0;  ///< step of which all ranges are multiples [m]; 0: none of 1 mm or more
+  std::size_t beams = 0;  ///< of a scan, the most
+  double valid = 0.0;
+  double nothing = 0.0;
+  double too_near = 0.0;
+  double invalid = 0.0;
+  double step = 0.0;    ///< of which all ranges are multiples [m]; 0: none that matters
   double moving = 0.0;  ///< standard deviation of the median beam [m]: whether the scene changes
   /// Beams that say the same in every scan although the scene changes, within a metre: the robot's
   /// own body.
@@ -39,8 +36,7 @@ struct RangeSummary {
 /// Gathers the ranges of a scanner.
 class RangeCheck {
  public:
-  /// One scan, ranges [m] with the limits of its message.
-  void add(const std::vector<float>& ranges, double range_min, double range_max);
+  void add(const scan::Scan& scan);
   RangeSummary summary() const;
   /// Number of readings by range in [mm].
   const std::map<std::int64_t, std::size_t>& histogram() const { return histogram_; }
@@ -54,18 +50,16 @@ class RangeCheck {
     void add(double range);
     double sigma() const;
   };
-  void addReading(float range, double range_min, double range_max, std::size_t beam);
-  void findMisses(RangeSummary& summary) const;
   void findConstantBeams(RangeSummary& summary) const;
   bool isConstant(const Beam& beam) const;
-  double resolution() const;
+  double shareOf(scan::ReturnKind kind) const;
 
   std::size_t scans_ = 0;
   std::size_t readings_ = 0;
-  std::size_t valid_ = 0, nothing_ = 0, too_near_ = 0, zero_ = 0, not_a_number_ = 0;
+  std::array<std::size_t, 4> kinds_{};  // readings by ReturnKind
   std::vector<Beam> beams_;
   std::map<std::int64_t, std::size_t> histogram_;
-  std::vector<float> sample_;  // of valid ranges, for their resolution
+  scan::RangeStep step_;
 };
 
 }  // namespace sightline::logs
