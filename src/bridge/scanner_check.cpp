@@ -53,10 +53,11 @@ std::string ScannerCheck::frame() const {
 std::string ScannerCheck::description() const {
   const logs::StampSummary stamps = stamps_.summary();
   return fmt::format(
-      "{} scans, {:.2f} Hz, {} beams from {:.1f} to {:.1f} degrees, {:.3g} to {:.3g} m, frame {}",
+      "{} scans, {:.2f} Hz, {} beams from {:.1f} to {:.1f} degrees, {:.3g} to {:.3g} m, frame {}, "
+      "arriving {:.0f} ms after their stamp",
       stamps.messages, stamps.period > 0.0 ? 1.0 / stamps.period : 0.0, last_.ranges.size(),
-      degrees(last_.angle_min), degrees(last_.angle_max), last_.range_min, last_.range_max,
-      frame());
+      degrees(last_.angle_min), degrees(last_.angle_max), last_.range_min, last_.range_max, frame(),
+      1e3 * stamps.delay);
 }
 
 Findings ScannerCheck::findings() const {

@@ -61,7 +61,6 @@ StampSummary StampCheck::summary() const {
   summary.delay = median(std::move(delays));
   if (stamps_.size() < 2) return summary;
   summary.period = periodOf(stamps_);
-  summary.duration = secondsBetween(arrivals_.front(), arrivals_.back());
   const std::vector<double> all = steps();
   for (const double step : all) {
     summary.back += step < 0.0;

@@ -18,7 +18,6 @@ struct StampSummary {
   double longest_gap = 0.0;
   double in_bursts = 0.0;  ///< share of the steps shorter than .3 periods: stamps of arrival
   double delay = 0.0;      ///< of the arrival behind the stamp, median
-  double duration = 0.0;   ///< between the first arrival and the last
 };
 
 /// Gathers the stamps of a topic.
