@@ -71,6 +71,10 @@ class PortTest : public ::testing::Test {
     if (child == 0) _exit(geteuid() == 0 && setuid(65534) != 0 ? 99 : body());
     return child;
   }
+  /// Whether others come to the folder at all: in some roots of containers they do not come past /.
+  bool isReachedByOthers() const {
+    return waitFor(asSomebodyElse([this] { return access(folder_.path("").c_str(), X_OK); })) == 0;
+  }
   /// Its status.
   static int waitFor(pid_t child) {
     int status = 0;
