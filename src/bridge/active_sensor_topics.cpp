@@ -25,7 +25,7 @@ ActiveSensorTopics::ActiveSensorTopics(ros::NodeHandle node, const ActiveSensorN
                                        OnHeadCommand on_command)
     : names_(names),
       limits_(limits),
-      monitor_(node.resolveName(names.head_command), updater),
+      monitor_(node.resolveName(names.head_command), updater, InputMonitor::Flow::kPerhaps),
       on_command_(std::move(on_command)),
       range_scan_publisher_(node.advertise<RangeScan>(names.range_scan, 10)),
       scan_publisher_(node.advertise<sensor_msgs::LaserScan>(names.scan, 10)),
@@ -60,7 +60,9 @@ void ActiveSensorTopics::publishJoint(const HeadSample& sample) const {
   joint_publisher_.publish(message);
 }
 
+// Several heads may hear one topic; each obeys what names its joint, or none.
 void ActiveSensorTopics::onHeadCommand(const HeadCommand& message) {
+  if (!message.joint.empty() && message.joint != names_.frames.joint) return;
   try {
     on_command_(fromMessage(message, names_.frames.joint, limits_));
     monitor_.accept();

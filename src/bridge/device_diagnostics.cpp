@@ -1,6 +1,7 @@
 #include "sightline/bridge/device_diagnostics.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <ros/console.h>
 
 namespace sightline::bridge {
@@ -35,8 +36,51 @@ void addCounts(const driver::SessionStatus& now,
   status.add("Bytes skipped", now.line.skipped_bytes);
   status.add("Connections", now.connections);
   status.add("Reboots of the device", now.counts.reboots);
-  status.add("Head commands refused by the device", now.counts.refused_commands);
-  status.add("Head commands lost", now.counts.lost_commands);
+  status.add("Head commands refused by the device", now.commands.refused);
+  status.add("Head commands lost", now.commands.lost);
+}
+
+void addClock(const driver::SessionStatus& now,
+              diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.add("Computed Latency", now.latency);
+  status.add("Clock drift [ppm]", 1e6 * now.drift);
+  status.add("Clock resets", now.clock.resets);
+  status.add("Impossible clocks in headers", now.clock.wrong_headers);
+  status.add("Scans stamped by their arrival", now.clock.bridged);
+  status.add("Line",
+             now.is_faster_than_serial ? "faster than the baud rate: native USB" : "serial");
+}
+
+// What grew since the last report, in words.
+struct Growth {
+  std::size_t now;
+  std::size_t before;
+  const char* text;
+};
+
+std::vector<std::string> grown(const std::vector<Growth>& counts) {
+  std::vector<std::string> texts;
+  for (const Growth& count : counts) {
+    if (count.now > count.before) texts.emplace_back(count.text);
+  }
+  return texts;
+}
+
+std::vector<std::string> newTroubles(const driver::SessionStatus& now,
+                                     const driver::SessionStatus& before) {
+  return grown({
+      {brokenParts(now), brokenParts(before), "bytes arrive broken"},
+      {now.counts.lost_scans, before.counts.lost_scans, "scans were lost"},
+      {now.counts.saturated_scans, before.counts.saturated_scans,
+       "too much light: samples at the end of the count are no ranges"},
+      {now.counts.reboots, before.counts.reboots, "the device started anew"},
+      {now.clock.resets, before.clock.resets, "the clock of the device was set"},
+      {now.clock.wrong_headers, before.clock.wrong_headers,
+       "clocks in headers are impossible; samples tell the time"},
+      {now.clock.bridged, before.clock.bridged, "scans are stamped by their arrival"},
+      {now.commands.refused, before.commands.refused, "the device refused a head command"},
+      {now.commands.lost, before.commands.lost, "a head command was never acknowledged"},
+  });
 }
 
 }  // namespace
@@ -62,29 +106,39 @@ void DeviceDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("Serial Baud", config_.baud_rate);
   status.add("Protocol Version", static_cast<int>(driver::kProtocolVersion));
   addDevice(now, status);
-  status.add("Computed Latency", now.latency);
-  status.add("Clock drift [ppm]", 1e6 * now.drift);
-  status.add("Clock resets", now.clock_resets);
+  addClock(now, status);
   addCounts(now, status);
   status.add("Scans not worked on in time", queue_.overruns());
   before_ = now;
   overruns_before_ = queue_.overruns();
 }
 
+std::vector<std::string> DeviceDiagnostics::warnings(const driver::SessionStatus& now) const {
+  std::vector<std::string> texts = newTroubles(now, before_);
+  if (now.counts.refused_scans > before_.counts.refused_scans) {
+    texts.push_back("scans refused: " + now.refusal);
+  }
+  if (!now.head_fault.empty()) texts.push_back("the head " + now.head_fault);
+  if (now.drift_is_at_limit) texts.emplace_back("the clock of the device drifts beyond max_drift");
+  if (queue_.overruns() > overruns_before_) {
+    texts.emplace_back("scans come faster than they are worked on");
+  }
+  return texts;
+}
+
 void DeviceDiagnostics::summarise(const driver::SessionStatus& now,
                                   diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (now.trouble.fault != driver::Fault::kNone) {
-    status.summary(DiagnosticStatus::ERROR, now.trouble.text);
-  } else if (!now.is_scanning) {
-    status.summary(DiagnosticStatus::WARN, "connecting");
-  } else if (brokenParts(now) > brokenParts(before_)) {
-    status.summary(DiagnosticStatus::WARN, "scanning; bytes arrive broken");
-  } else if (queue_.overruns() > overruns_before_) {
-    status.summary(DiagnosticStatus::WARN, "scanning; scans come faster than they are worked on");
-  } else if (now.counts.lost_scans > before_.counts.lost_scans) {
-    status.summary(DiagnosticStatus::WARN, "scanning; scans were lost");
-  } else {
-    status.summary(DiagnosticStatus::OK, "scanning");
+    return status.summary(DiagnosticStatus::ERROR, now.trouble.text);
+  }
+  if (!now.is_scanning) return status.summary(DiagnosticStatus::WARN, "connecting");
+  const auto texts = warnings(now);
+  const auto level = texts.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
+  status.summary(level,
+                 fmt::format("scanning{}{}", texts.empty() ? "" : "; ", fmt::join(texts, "; ")));
+  for (const std::string& text : texts) {
+    if (said_[text.substr(0, text.find(':'))].isDue())
+      ROS_WARN("%s: %s", config_.port.c_str(), text.c_str());
   }
 }
 
@@ -95,6 +149,12 @@ void DeviceDiagnostics::log(const driver::SessionStatus& now) {
   if (now.is_scanning && !before_.is_scanning) {
     ROS_INFO("%s: scanning with %s", config_.port.c_str(),
              now.device ? now.device->serial.c_str() : "?");
+  }
+  if (now.is_faster_than_serial && !before_.is_faster_than_serial) {
+    ROS_INFO(
+        "%s: bytes come faster than the baud rate allows: native USB, whose scans arrive at "
+        "once",
+        config_.port.c_str());
   }
 }
 

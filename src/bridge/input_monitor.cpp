@@ -54,7 +54,9 @@ void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (dropped_ > dropped_before_) {
     status.summary(DiagnosticStatus::WARN, "dropped: " + last_reason_);
   } else if (accepted_ == 0) {
-    status.summary(DiagnosticStatus::WARN, "nothing received yet");
+    const bool is_missed = flow_ != Flow::kPerhaps;
+    status.summary(is_missed ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                   "nothing received yet");
   } else if (is_silent) {
     status.summary(DiagnosticStatus::WARN, "nothing received any more");
   } else {

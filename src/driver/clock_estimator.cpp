@@ -9,6 +9,7 @@ namespace sightline::driver {
 namespace {
 
 constexpr double kOtherClock = 1.0;                  // [s]: no drift is so fast
+constexpr double kRecent = 2.0;                      // [s]: no drift adds up to a millisecond in it
 constexpr std::int64_t kAlwaysLate = 2'000'000'000;  // [ns]: no delay lasts so long
 
 // Whether b lies on or above the straight line from a to c.
@@ -94,10 +95,38 @@ bool ClockEstimator::isOtherClock(double late, std::int64_t host) {
   return host - *late_since_ > kAlwaysLate;
 }
 
+double ClockEstimator::aheadOf(double device_seconds, std::int64_t host) const {
+  return 1e-9 * static_cast<double>(host - origin_) - device_seconds;
+}
+
+std::optional<double> ClockEstimator::slackOfArrival(std::uint32_t device,
+                                                     std::int64_t host) const {
+  const double seconds = deviceSeconds(device);
+  std::optional<double> slack;
+  for (auto point = departures_.rbegin(); point != departures_.rend(); ++point) {
+    if (point->device < seconds - kRecent) break;
+    const double later = aheadOf(seconds, host) - point->ahead;
+    slack = slack ? std::min(*slack, later) : later;
+  }
+  return slack;
+}
+
+std::optional<double> ClockEstimator::slackOfDeparture(std::int64_t host,
+                                                       std::uint32_t device) const {
+  const double seconds = deviceSeconds(device);
+  std::optional<double> slack;
+  for (auto point = arrivals_.rbegin(); point != arrivals_.rend(); ++point) {
+    if (point->device < seconds - kRecent) break;
+    const double earlier = point->ahead - aheadOf(seconds, host);
+    slack = slack ? std::min(*slack, earlier) : earlier;
+  }
+  return slack;
+}
+
 void ClockEstimator::observeDeparture(std::int64_t host, std::uint32_t device) {
   if (arrivals_.empty()) return;
   const double seconds = deviceSeconds(device);
-  departures_.push_back({seconds, 1e-9 * static_cast<double>(host - origin_) - seconds});
+  departures_.push_back({seconds, aheadOf(seconds, host)});
 }
 
 void ClockEstimator::reset() {

@@ -1,6 +1,8 @@
 #include "sightline/driver/conversation.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,23 +13,21 @@ namespace sightline::driver {
 
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;         // [ns]
-constexpr std::int64_t kSilence = 250 * kMillisecond;    // two scans have not come
+constexpr std::int64_t kMillisecond = 1'000'000;       // [ns]
+constexpr std::int64_t kSilence = 250 * kMillisecond;  // two scans of 10 a second have not come
+constexpr std::int64_t kLongestSilence = 2500 * kMillisecond;
 constexpr std::int64_t kPatience = 1000 * kMillisecond;  // before silence is a fault
 constexpr std::int64_t kAskingPeriod = 40 * kMillisecond;
+constexpr std::int64_t kLongestAskingPeriod = 640 * kMillisecond;
+constexpr int kQuickQuestions = 10;  // before the pauses grow
 constexpr std::int64_t kUnknownDevicePeriod =
     250 * kMillisecond;  // of asking a device that is not the right one
 constexpr std::int64_t kFramePatience = 50 * kMillisecond;  // beyond what its bytes take
 constexpr std::int64_t kPingPeriod = 250 * kMillisecond;
-constexpr std::int64_t kCommandPeriod = 100 * kMillisecond;
-constexpr std::int64_t kCommandPatience = 1000 * kMillisecond;
+constexpr std::size_t kGlint = 3;  // samples that may be at an end of the count
 
 std::uint32_t microseconds(std::int64_t time) {
   return static_cast<std::uint32_t>(time / 1000);
-}
-
-std::int64_t lineTime(std::size_t bytes, int baud_rate) {
-  return static_cast<std::int64_t>(1e9 * lineSeconds(bytes, baud_rate));
 }
 
 }  // namespace
@@ -48,11 +48,16 @@ Moment Moment::now() {
 }
 
 Conversation::Conversation(ConversationConfig config, OnScan on_scan)
-    : config_(std::move(config)), on_scan_(std::move(on_scan)), clock_(config_.clock) {}
+    : config_(std::move(config)),
+      on_scan_(std::move(on_scan)),
+      clock_(config_.clock, config_.baud_rate),
+      head_(config_.head) {}
 
 void Conversation::open(const Moment& now) {
   parser_.clear();
+  clock_.open();
   device_.reset();
+  times_asked_ = 0;
   trouble_ = {};
   last_scan_ = last_byte_ = last_frame_ = now.steady;
   broken_before_ = broken();
@@ -79,7 +84,7 @@ void Conversation::takeFrames(const Moment& now) {
 // comes after it.
 void Conversation::giveUpOldFrame(const Moment& now) {
   const auto is_old = [&] {
-    const std::int64_t expected = lineTime(parser_.awaited(), config_.baud_rate);
+    const std::int64_t expected = clock_.lineTime(parser_.awaited());
     return parser_.waiting() > 0 && now.steady - begun_ > expected + kFramePatience;
   };
   while (is_old()) {
@@ -95,17 +100,11 @@ void Conversation::take(const Frame& frame, const Moment& now) {
   Pong pong;
   if (decode(frame, identity)) takeIdentity(identity);
   if (frame.header.kind == FrameKind::kScan) {
-    if (isOfDevice(frame)) {
-      observeArrival(frame, now);
-      takeScan(now);
-    } else {
-      ++counts_.refused_scans;
-    }
+    if (isOfDevice(frame)) takeScan(frame, now);
   } else if (device_ && decode(frame, pong)) {
-    observeArrival(frame, now);
-    takePong(pong, now);
+    takePong(frame, pong, now);
   } else if (decode(frame, answer)) {
-    takeAcknowledgement(answer);
+    commands_.take(answer);
   }
 }
 
@@ -118,34 +117,29 @@ void Conversation::refuseVersion(int version, const Moment& now) {
 // A device that was known before the line was opened goes on by itself. A scan from after a reboot
 // that went unnoticed makes it an unknown device, which is asked at once.
 bool Conversation::isOfDevice(const Frame& scan) {
-  if (!decode(scan, report_)) return false;
+  if (!decode(scan, report_)) {
+    refuse("a sample period or a unit of 0, or a payload that is not of its number of samples");
+    return false;
+  }
   const bool is_known = known_ && report_.boot == known_->boot;
   if (is_known) {
     device_ = known_;
   } else {
     device_.reset();
+    refuse("of another boot than the device has named");
   }
   return is_known;
 }
 
-Trouble Conversation::faultOf(const Identity& identity) const {
-  if (identity.model != kModel) {
-    return trouble(Fault::kWrongDevice, fmt::format("'{}', expected '{}'", identity.model, kModel));
-  }
-  if (identity.serial != config_.serial) {
-    return trouble(Fault::kWrongSerial,
-                   fmt::format("the device is '{}', the calibration is for '{}'", identity.serial,
-                               config_.serial));
-  }
-  if (identity.samples != config_.samples) {
-    return trouble(Fault::kWrongSamples, fmt::format("the device takes {}, the calibration has {}",
-                                                     identity.samples, config_.samples));
-  }
-  return {};
+void Conversation::refuse(std::string reason) {
+  ++counts_.refused_scans;
+  refusal_ = std::move(reason);
+  last_refusal_ = std::max(last_byte_, last_scan_);
+  number_.reset();  // or one wrong number would shut out all that come after it
 }
 
 void Conversation::takeIdentity(const Identity& identity) {
-  const Trouble fault = faultOf(identity);
+  const Trouble fault = config_.device.faultOf(identity);
   if (fault.fault != Fault::kNone) {
     trouble_ = fault;
     device_.reset();
@@ -154,7 +148,7 @@ void Conversation::takeIdentity(const Identity& identity) {
   }
   if (!known_ || identity.boot != known_->boot) {
     if (known_) ++counts_.reboots;
-    clock_.reset();
+    clock_.restart();
     number_.reset();
   }
   known_ = device_ = identity;
@@ -162,24 +156,10 @@ void Conversation::takeIdentity(const Identity& identity) {
   just_identified_ = true;
 }
 
-void Conversation::takeAcknowledgement(const Acknowledgement& answer) {
-  if (!command_ || answer.command != FrameKind::kHeadTarget ||
-      answer.sequence != command_->sequence) {
-    return;
-  }
-  if (answer.result != CommandResult::kDone) ++counts_.refused_commands;
-  command_.reset();
-}
-
-void Conversation::takePong(const Pong& pong, const Moment& now) {
+void Conversation::takePong(const Frame& frame, const Pong& pong, const Moment& now) {
   // The token is the low end of the time at which the last byte of the ping went.
   const std::int64_t ago = 1000 * static_cast<std::int64_t>(microseconds(now.steady) - pong.token);
-  if (ago < 10'000 * kMillisecond) clock_.observeDeparture(now.steady - ago, pong.received);
-}
-
-void Conversation::observeArrival(const Frame& frame, const Moment& now) {
-  const std::size_t size = kHeaderSize + frame.payload.size + kTrailerSize;
-  clock_.observeArrival(frame.header.clock, now.steady - lineTime(size, config_.baud_rate));
+  if (ago < 10'000 * kMillisecond) clock_.takePong(frame, pong, now.steady - ago, now.steady);
 }
 
 void Conversation::countLost() {
@@ -187,22 +167,31 @@ void Conversation::countLost() {
   number_ = report_.number;
 }
 
-void Conversation::takeScan(const Moment& now) {
-  const auto time = clock_.hostTime(report_.first_sample);
-  const bool goes_back = number_ && static_cast<std::int32_t>(report_.number - *number_) <= 0;
-  if (!time || goes_back || report_.currents.size() != config_.samples) {
-    ++counts_.refused_scans;
-    number_.reset();  // or one wrong number would shut out all that come after it
-    return;
-  }
+std::string Conversation::faultOf(const ScanReport& report) const {
+  const bool goes_back = number_ && static_cast<std::int32_t>(report.number - *number_) <= 0;
+  if (goes_back) return fmt::format("number {} after {}", report.number, *number_);
+  return config_.device.faultOf(report);
+}
+
+void Conversation::takeScan(const Frame& frame, const Moment& now) {
+  std::string fault = faultOf(report_);
+  if (!fault.empty()) return refuse(std::move(fault));
+  const bool follows = number_ && report_.number == *number_ + 1;
+  if (follows) scan_pause_ = now.steady - last_scan_;
   countLost();
-  if (report_.status & ScanReport::kSaturated) ++counts_.saturated_scans;
+  deliver(clock_.stampOf(frame, report_, now.steady), now);
+}
+
+void Conversation::deliver(std::int64_t stamp, const Moment& now) {
   toRawScan(report_, scan_);
-  scan_.stamp = *time + now.system - now.steady;
+  if (saturatedSamples(scan_) > kGlint) ++counts_.saturated_scans;
+  scan_.stamp = stamp + now.system - now.steady;
   ++counts_.scans;
   last_scan_ = now.steady;
+  times_asked_ = 0;
   broken_before_ = broken();
   trouble_ = {};
+  head_.observe(scan_.head_angles, now.steady);
   on_scan_(scan_);
 }
 
@@ -210,15 +199,20 @@ std::size_t Conversation::broken() const {
   return parser_.counts().bad_headers + parser_.counts().bad_frames;
 }
 
+// Of a device that is slower than others, two scans of its own.
+std::int64_t Conversation::silence() const {
+  return std::clamp(2 * scan_pause_ + scan_pause_ / 2, kSilence, kLongestSilence);
+}
+
 bool Conversation::isScanning(const Moment& now) const {
-  return device_ && now.steady - last_scan_ < kSilence && counts_.scans > 0;
+  return device_ && now.steady - last_scan_ < silence() && counts_.scans > 0;
 }
 
 void Conversation::judgeSilence(const Moment& now) {
   const bool is_of_device =
       trouble_.fault == Fault::kWrongDevice || trouble_.fault == Fault::kWrongVersion ||
       trouble_.fault == Fault::kWrongSerial || trouble_.fault == Fault::kWrongSamples;
-  if (now.steady - last_scan_ < kPatience) return;
+  if (now.steady - last_scan_ < std::max(kPatience, silence())) return;
   const auto secondsSince = [&](std::int64_t time) {
     return 1e-9 * static_cast<double>(now.steady - time);
   };
@@ -228,17 +222,22 @@ void Conversation::judgeSilence(const Moment& now) {
   } else if (now.steady - last_frame_ >= kPatience || broken() > broken_before_) {
     trouble_ = trouble(Fault::kGarbage,
                        fmt::format("bytes, and no scan for {:.0f} s", secondsSince(last_scan_)));
+  } else if (last_refusal_ > last_scan_) {
+    trouble_ = trouble(Fault::kRefusedScans, refusal_);
   } else if (!is_of_device) {
     trouble_ = trouble(Fault::kNoScans, fmt::format("it answers, but sent none for {:.0f} s",
                                                     secondsSince(last_scan_)));
   }
 }
 
+// A device that does not answer is left more and more in peace.
 std::int64_t Conversation::askingPeriod() const {
   const bool is_unknown = trouble_.fault != Fault::kNone &&
                           trouble_.fault != Fault::kSilentDevice &&
                           trouble_.fault != Fault::kNoScans;
-  return is_unknown ? kUnknownDevicePeriod : kAskingPeriod;
+  if (is_unknown) return kUnknownDevicePeriod;
+  const int doublings = std::clamp(times_asked_ - kQuickQuestions, 0, 4);
+  return std::min(kAskingPeriod << doublings, kLongestAskingPeriod);
 }
 
 template <class Message>
@@ -254,18 +253,19 @@ const std::vector<std::uint8_t>& Conversation::send(const Moment& now) {
   outgoing_.clear();
   giveUpOldFrame(now);
   judgeSilence(now);
-  const bool is_quiet = !device_ || now.steady - last_scan_ >= kSilence;
+  const bool is_quiet = !device_ || now.steady - last_scan_ >= silence();
   if (std::exchange(just_identified_, false)) {
     put(Start{}, now);
   } else if (is_quiet && now.steady - last_asked_ >= askingPeriod()) {
     last_asked_ = now.steady;
+    ++times_asked_;
     put(Identify{}, now);
   }
   sendCommand(now);
   if (device_ && now.steady - last_ping_ >= kPingPeriod) {
     last_ping_ = now.steady;
     const std::size_t size = outgoing_.size() + kHeaderSize + 4 + kTrailerSize;
-    put(Ping{microseconds(now.steady + lineTime(size, config_.baud_rate))}, now);
+    put(Ping{microseconds(now.steady + clock_.lineTime(size))}, now);
   }
   return outgoing_;
 }
@@ -277,18 +277,15 @@ const std::vector<std::uint8_t>& Conversation::stop(const Moment& now) {
 }
 
 void Conversation::command(const motion::HeadCommand& command, const Moment& now) {
-  command_ = PendingCommand{{command}, now.steady, now.steady - kCommandPeriod, 0};
+  commands_.give(command, now.steady);
+  head_.command(command, now.steady);
 }
 
 void Conversation::sendCommand(const Moment& now) {
-  if (!command_) return;
-  if (now.steady - command_->given > kCommandPatience) {
-    ++counts_.lost_commands;
-    command_.reset();
-  } else if (device_ && now.steady - command_->sent >= kCommandPeriod) {
-    command_->sent = now.steady;
-    put(command_->target, now);
-    command_->sequence = sequence_;
+  if (!device_) return commands_.dropLost(now.steady);
+  if (const auto target = commands_.due(now.steady)) {
+    put(*target, now);
+    commands_.sent(sequence_);
   }
 }
 

@@ -1,7 +1,11 @@
 #include "sightline/driver/device_session.h"
 
+#include <cmath>
+
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/post.hpp>
+
+#include "sightline/driver/port_name.h"
 
 namespace sightline::driver {
 
@@ -18,12 +22,12 @@ void SessionConfig::visit(config::FieldVisitor& visitor) {
   visitor.group("clock", clock);
 }
 
-DeviceSession::DeviceSession(const SessionConfig& config, const std::string& serial,
-                             std::size_t samples, Conversation::OnScan on_scan)
+DeviceSession::DeviceSession(const SessionConfig& config, const ExpectedDevice& device,
+                             const motion::HeadLimits& head, Conversation::OnScan on_scan)
     : config_(config),
       line_(context_),
       timer_(context_),
-      conversation_({serial, samples, config.baud_rate, config.clock}, std::move(on_scan)) {
+      conversation_({device, config.baud_rate, config.clock, head}, std::move(on_scan)) {
   boost::asio::post(context_, [this] { onTick(); });
   thread_ = std::thread([this] { context_.run(); });
 }
@@ -49,9 +53,20 @@ SessionStatus DeviceSession::status() const {
   return status_;
 }
 
+// An adapter that was plugged in again may come back as another port, and is known by its name.
+Trouble DeviceSession::openPort() {
+  Trouble found = line_.open(config_.port, config_.baud_rate);
+  if (line_.isOpen()) {
+    lasting_name_ = lastingName(config_.port);
+  } else if (found.fault == Fault::kNoSuchPort && !lasting_name_.empty()) {
+    found = line_.open(lasting_name_, config_.baud_rate);
+  }
+  return found;
+}
+
 // A port that cannot be read, though it opens, keeps its name until bytes come.
 void DeviceSession::open() {
-  const Trouble found = line_.open(config_.port, config_.baud_rate);
+  const Trouble found = openPort();
   if (!line_.isOpen() || port_trouble_.fault != Fault::kPortFailed) port_trouble_ = found;
   if (!line_.isOpen()) {
     const bool may_come = found.fault == Fault::kNoSuchPort;
@@ -103,9 +118,15 @@ void DeviceSession::updateStatus() {
   status_.connections = connections_;
   status_.counts = conversation_.counts();
   status_.line = conversation_.lineCounts();
-  status_.latency = conversation_.clock().latency();
-  status_.drift = conversation_.clock().drift();
-  status_.clock_resets = conversation_.clock().resets();
+  status_.commands = conversation_.commandCounts();
+  status_.refusal = conversation_.refusal();
+  status_.head_fault = conversation_.headFault();
+  const DeviceClock& clock = conversation_.clock();
+  status_.latency = clock.latency();
+  status_.drift = clock.drift();
+  status_.drift_is_at_limit = std::abs(clock.drift()) >= 0.999e-6 * config_.clock.max_drift;
+  status_.is_faster_than_serial = clock.isFasterThanSerial();
+  status_.clock = clock.counts();
   status_.bytes = bytes_;
 }
 

@@ -21,16 +21,28 @@ std::int16_t toAngleUnits(double angle) {
       std::lround(std::clamp<double>(angle / kAngleUnit, Limits::min(), Limits::max())));
 }
 
+// Current of a count [A]; NaN at an end of the count, where it may be anything beyond.
+double currentOf(std::int32_t count, double ampere) {
+  if (std::abs(count) >= kMaxCount) return std::numeric_limits<double>::quiet_NaN();
+  return ampere * count;
+}
+
 }  // namespace
 
 void toRawScan(const ScanReport& report, triangulation::RawScan& raw) {
   const double ampere = 1e-15 * report.femtoamperes_per_count;
   raw.currents.clear();
   for (const ScanReport::Counts& pair : report.currents) {
-    raw.currents.push_back({ampere * pair.first, ampere * pair.second});
+    raw.currents.push_back({currentOf(pair.first, ampere), currentOf(pair.second, ampere)});
   }
   raw.head_angles.clear();
   for (const std::int16_t angle : report.head_angles) raw.head_angles.push_back(kAngleUnit * angle);
+}
+
+std::size_t saturatedSamples(const triangulation::RawScan& raw) {
+  return static_cast<std::size_t>(std::count_if(
+      raw.currents.begin(), raw.currents.end(),
+      [](const triangulation::Photocurrents& pair) { return std::isnan(pair.total()); }));
 }
 
 void fillReport(const triangulation::RawScan& raw, ScanReport& report) {

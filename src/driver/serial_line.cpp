@@ -9,6 +9,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "sightline/driver/port_name.h"
+
 namespace sightline::driver {
 
 namespace {
@@ -36,6 +38,15 @@ Fault faultOf(const error_code& error) {
 
 error_code lastError() {
   return {errno, boost::system::system_category()};
+}
+
+// What the error of the system is worth telling beside the name of the fault.
+std::string detailOf(const error_code& error, const std::string& path) {
+  const Fault fault = faultOf(error);
+  if (fault == Fault::kNoSuchPort || fault == Fault::kNotASerialPort) return path;
+  if (fault != Fault::kPortBusy) return path + ": " + error.message();
+  const std::string holder = holderOf(path);
+  return path + ": " + (holder.empty() ? "another program has it" : "held by " + holder);
 }
 
 // Every byte as it is. The rest of the settings is asio's.
@@ -70,7 +81,7 @@ Trouble SerialLine::open(const std::string& path, int baud_rate) {
   close();
   const auto fail = [&](const error_code& error) {
     close();
-    return trouble(faultOf(error), path + ": " + error.message());
+    return trouble(faultOf(error), detailOf(error, path));
   };
   const int handle = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (handle < 0) return fail(lastError());

@@ -6,7 +6,7 @@
 namespace sightline::driver {
 
 const char* nameOf(Fault fault) {
-  constexpr std::array<const char*, 13> kNames{"none",
+  constexpr std::array<const char*, 14> kNames{"none",
                                                "no such port",
                                                "no permission",
                                                "port busy",
@@ -15,6 +15,7 @@ const char* nameOf(Fault fault) {
                                                "silent device",
                                                "garbage",
                                                "no scans",
+                                               "scans refused",
                                                "wrong device",
                                                "wrong protocol version",
                                                "wrong serial number",

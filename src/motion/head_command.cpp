@@ -52,6 +52,7 @@ std::string HeadLimits::fault(const HeadCommand& command) const {
   if (command.mode == HeadCommand::Mode::kPosition) {
     const std::string fault = faultOfPosition(*this, command.position);
     if (!fault.empty()) return fault;
+    if (command.rate < 0.0) return "a rate below 0 on the way to a position; it has no sense there";
   }
   return faultOfRate(*this, command.rate);
 }

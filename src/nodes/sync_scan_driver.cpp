@@ -87,8 +87,10 @@ SyncScanDriverNode::SyncScanDriverNode(ros::NodeHandle node, ros::NodeHandle pri
              sensor.serial.c_str());
   }
   session_ = std::make_unique<driver::DeviceSession>(
-      config_.session, sensor.serial, static_cast<std::size_t>(sensor.scan.beams),
-      [this](const triangulation::RawScan& raw) { queue_.push(raw); });
+      config_.session,
+      driver::ExpectedDevice{sensor.serial, static_cast<std::size_t>(sensor.scan.beams),
+                             1.0 / sensor.scan.sample_rate},
+      joint.limits, [this](const triangulation::RawScan& raw) { queue_.push(raw); });
   topics_ = std::make_unique<bridge::ActiveSensorTopics>(
       node, config_.names, joint.limits, updater_,
       [this](const motion::HeadCommand& command) { session_->command(command); });

@@ -95,8 +95,9 @@ TEST_F(ActiveSensorNode, RefusesCommandsThatNoHeadCanFollow) {
   expectRefused("beyond the limits");
   command(HeadCommand::RATE, 0.0, std::nan(""));
   expectRefused("a rate that is not finite");
-  command(HeadCommand::POSITION, 0.5, 0.0, "elbow");
-  expectRefused("for the joint 'elbow'");
+  command(HeadCommand::POSITION, 0.5, -1.0);
+  expectRefused("a rate below 0 on the way to a position");
+  command(HeadCommand::POSITION, 0.5, 0.0, "elbow");  // is for another head
   command(7, 0.5, 0.0);
   expectRefused("an unknown mode 7");
   EXPECT_EQ(positionNear(0.0), position);

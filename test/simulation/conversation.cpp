@@ -1,9 +1,11 @@
 // The two ends of the wire format against each other, in a time of their own.
+#include <cmath>
 #include <deque>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "driver/sample_messages.h"
 #include "sightline/driver/conversation.h"
 #include "sightline/simulation/emulated_firmware.h"
 #include "simulation/ramp_device.h"
@@ -28,8 +30,8 @@ class TwoEnds : public ::testing::Test {
 
   static ConversationConfig config() {
     ConversationConfig config;
-    config.serial = "SS-0001";
-    config.samples = 256;
+    config.device.serial = "SS-0001";
+    config.device.samples = 256;
     config.clock.latency = 0.0;
     return config;
   }
@@ -156,11 +158,11 @@ TEST_F(TwoEnds, HeadCommandsAreObeyedOrRefused) {
   host_.command({HeadMode::kPosition, 0.7, 0.0}, moment());
   run(50 * kMs);
   EXPECT_NEAR(device_.angle(), 0.7, 1e-9);
-  EXPECT_EQ(host_.counts().refused_commands, 0U);
+  EXPECT_EQ(host_.commandCounts().refused, 0U);
   host_.command({HeadMode::kPosition, 3.0, 0.0}, moment());
   run(50 * kMs);
   EXPECT_NEAR(device_.angle(), 0.7, 1e-9);
-  EXPECT_EQ(host_.counts().refused_commands, 1U);
+  EXPECT_EQ(host_.commandCounts().refused, 1U);
 }
 
 TEST_F(TwoEnds, HeadCommandsGrowOld) {
@@ -173,7 +175,57 @@ TEST_F(TwoEnds, HeadCommandsGrowOld) {
   awake_ = true;
   run(1000 * kMs);
   EXPECT_EQ(device_.angle(), 0.0) << "a second later nobody expects it to move";
-  EXPECT_EQ(host_.counts().lost_commands, 1U);
+  EXPECT_EQ(host_.commandCounts().lost, 1U);
+}
+
+// A device that names one number of samples and sends another.
+TEST_F(TwoEnds, RefusedScansAreNamed) {
+  connect();
+  run(500 * kMs);
+  const std::size_t scans = scans_.size();
+  driver::FrameEncoder encoder;
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    driver::ScanReport report = test::scanReport(100 + i);
+    report.boot = host_.device()->boot;
+    report.currents.resize(200);
+    report.head_angles.resize(200);
+    firmware_->take();
+    time_ += 100 * kMs;
+    const auto& bytes = encoder.encode({}, report);
+    host_.receive({bytes.data(), bytes.size()}, moment());
+    host_.send(moment());
+  }
+  EXPECT_EQ(scans_.size(), scans);
+  EXPECT_EQ(host_.currentTrouble().text, "scans refused: 200 samples, 256 expected");
+  EXPECT_EQ(host_.counts().refused_scans, 20U);
+}
+
+TEST_F(TwoEnds, CountsAtTheirEndAreNoCurrents) {
+  connect();
+  run(500 * kMs);
+  driver::ScanReport report = test::scanReport(100);
+  report.boot = host_.device()->boot;
+  report.currents[3].first = driver::kMaxCount;
+  report.currents[5].second = -driver::kMaxCount - 1;
+  driver::FrameEncoder encoder;
+  const auto& bytes = encoder.encode({}, report);
+  host_.receive({bytes.data(), bytes.size()}, moment());
+  ASSERT_FALSE(scans_.empty());
+  EXPECT_TRUE(std::isnan(scans_.back().currents[3].total()));
+  EXPECT_TRUE(std::isnan(scans_.back().currents[5].total()));
+  EXPECT_TRUE(std::isfinite(scans_.back().currents[4].total()));
+  EXPECT_EQ(host_.counts().saturated_scans, 0U) << "two may be a glint";
+}
+
+TEST_F(TwoEnds, SlowDeviceIsLeftInPeace) {
+  connect();
+  run(500 * kMs);
+  awake_ = false;
+  std::size_t questions = 0;
+  for (int i = 0; i < 500; ++i, time_ += 20 * kMs) {
+    questions += host_.send(moment()).empty() ? 0U : 1U;
+  }
+  EXPECT_LT(questions, 65U) << "in ten seconds, with pings";
 }
 
 TEST_F(TwoEnds, StopEndsTheScans) {

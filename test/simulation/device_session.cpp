@@ -79,7 +79,7 @@ TEST_F(PortTest, SecondUserIsToldThatThePortIsBusy) {
   plugIn();
   startSession();
   EXPECT_TRUE(moreScansCome());
-  DeviceSession second(config(), "SS-0001", 256, [](const triangulation::RawScan&) {});
+  DeviceSession second(config(), {"SS-0001", 256}, {}, [](const triangulation::RawScan&) {});
   EXPECT_TRUE(comesTrue([&] { return second.status().trouble.text != ""; }));
   EXPECT_THAT(second.status().trouble.text, StartsWith("port busy: " + port_));
   session_.reset();

@@ -50,11 +50,12 @@ class PortTest : public ::testing::Test {
   }
 
   void startSession() {
-    session_.emplace(config(), "SS-0001", 256U, [this](const triangulation::RawScan& scan) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      received_.push_back(scan.currents[0].first);
-      ++scans_;
-    });
+    session_.emplace(config(), driver::ExpectedDevice{"SS-0001", 256U}, motion::HeadLimits{},
+                     [this](const triangulation::RawScan& scan) {
+                       const std::lock_guard<std::mutex> lock(mutex_);
+                       received_.push_back(scan.currents[0].first);
+                       ++scans_;
+                     });
   }
 
   bool moreScansCome() {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <diagnostic_updater/update_functions.h>
 
+#include "sightline/bridge/log_throttle.h"
 #include "sightline/driver/device_session.h"
 #include "sightline/driver/scan_queue.h"
 
@@ -24,6 +27,7 @@ class DeviceDiagnostics {
 
  private:
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+  std::vector<std::string> warnings(const driver::SessionStatus& now) const;
   void summarise(const driver::SessionStatus& now,
                  diagnostic_updater::DiagnosticStatusWrapper& status);
   void log(const driver::SessionStatus& now);
@@ -33,8 +37,9 @@ class DeviceDiagnostics {
   const driver::ScanQueue& queue_;
   double scan_rate_;  // [Hz], for the frequency's own use
   diagnostic_updater::FrequencyStatus frequency_;
-  driver::SessionStatus before_;     // at the last report
-  std::size_t overruns_before_ = 0;  // likewise
+  driver::SessionStatus before_;             // at the last report
+  std::size_t overruns_before_ = 0;          // likewise
+  std::map<std::string, LogThrottle> said_;  // by what stands before the colon
 };
 
 }  // namespace sightline::bridge

@@ -18,8 +18,9 @@ namespace sightline::bridge {
 /// whatever the time of ROS does.
 class InputMonitor {
  public:
-  /// Whether messages are expected to go on once they have begun.
-  enum class Flow { kSteady, kNowAndThen };
+  /// Whether messages are expected to go on once they have begun, to come now and then, or perhaps
+  /// never.
+  enum class Flow { kSteady, kNowAndThen, kPerhaps };
 
   /// Registers with the updater, which has to live as long.
   InputMonitor(std::string topic, diagnostic_updater::Updater& updater,

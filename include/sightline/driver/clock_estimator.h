@@ -41,6 +41,13 @@ class ClockEstimator {
   /// The device starts anew.
   void reset();
 
+  /// Time by which a message that left the device at `device` and came at `host` is later than
+  /// messages of the last seconds in the other direction allow [s]; negative: it came before it was
+  /// sent, by one clock or the other. Nothing where there were none.
+  std::optional<double> slackOfArrival(std::uint32_t device, std::int64_t host) const;
+  /// The same of a message that left here at `host` and was with the device at `device`.
+  std::optional<double> slackOfDeparture(std::int64_t host, std::uint32_t device) const;
+
   /// Host time [ns] of a device time within half an hour of the last arrival; nothing before the
   /// first one.
   std::optional<std::int64_t> hostTime(std::uint32_t device) const;
@@ -58,6 +65,7 @@ class ClockEstimator {
     double ahead;
   };
 
+  double aheadOf(double device_seconds, std::int64_t host) const;
   bool isOtherClock(double late, std::int64_t host);
   double deviceSeconds(std::uint32_t device) const;
   double aheadAt(double device) const { return ahead_ + slope_ * device; }

@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "sightline/driver/clock_estimator.h"
+#include "sightline/driver/device_clock.h"
+#include "sightline/driver/expected_device.h"
 #include "sightline/driver/frame_parser.h"
+#include "sightline/driver/head_command_outbox.h"
+#include "sightline/driver/head_watch.h"
 #include "sightline/driver/messages.h"
 #include "sightline/driver/trouble.h"
 #include "sightline/triangulation/ranger.h"
@@ -16,10 +19,10 @@ namespace sightline::driver {
 
 /// Device to be talked to, and the line to it.
 struct ConversationConfig {
-  std::string serial;       ///< the device's number, as in its calibration
-  std::size_t samples = 0;  ///< a scan, likewise
+  ExpectedDevice device;
   int baud_rate = 460800;
   ClockConfig clock;
+  motion::HeadLimits head;
 };
 
 /// The same moment on two clocks of the host [ns]: one that never jumps, and that of the stamps.
@@ -31,13 +34,11 @@ struct Moment {
 };
 
 struct ConversationCounts {
-  std::size_t scans = 0;          ///< handed over
-  std::size_t lost_scans = 0;     ///< of a device that counted them
-  std::size_t refused_scans = 0;  ///< whole frames of an unknown device, or that make no sense
-  std::size_t saturated_scans = 0;
+  std::size_t scans = 0;            ///< handed over
+  std::size_t lost_scans = 0;       ///< of a device that counted them
+  std::size_t refused_scans = 0;    ///< whole frames of an unknown device, or that make no sense
+  std::size_t saturated_scans = 0;  ///< with more samples at an end of the count than a glint has
   std::size_t reboots = 0;
-  std::size_t refused_commands = 0;  ///< by the device
-  std::size_t lost_commands = 0;     ///< neither acknowledged in time nor replaced before
 };
 
 /// The host's side of the wire format: asks who is there, has it scan, keeps its clock, and asks
@@ -67,30 +68,29 @@ class Conversation {
   const std::optional<Identity>& device() const { return device_; }
   /// Whether the device is known and its scans come.
   bool isScanning(const Moment& now) const;
-  const ClockEstimator& clock() const { return clock_; }
+  const DeviceClock& clock() const { return clock_; }
   const ConversationCounts& counts() const { return counts_; }
+  const HeadCommandOutbox::Counts& commandCounts() const { return commands_.counts(); }
+  /// Reason why the last refused scan was refused; empty before there was one.
+  const std::string& refusal() const { return refusal_; }
+  /// As HeadWatch says it.
+  const std::string& headFault() const { return head_.fault(); }
   const FrameParser::Counts& lineCounts() const { return parser_.counts(); }
 
  private:
-  struct PendingCommand {
-    HeadTarget target;
-    std::int64_t given = 0;
-    std::int64_t sent = 0;
-    std::uint16_t sequence = 0;
-  };
-
   void take(const Frame& frame, const Moment& now);
   void takeFrames(const Moment& now);
   void giveUpOldFrame(const Moment& now);
   void refuseVersion(int version, const Moment& now);
   bool isOfDevice(const Frame& scan);
+  void refuse(std::string reason);
+  std::string faultOf(const ScanReport& report) const;
   void takeIdentity(const Identity& identity);
-  Trouble faultOf(const Identity& identity) const;
-  void takeAcknowledgement(const Acknowledgement& answer);
-  void takePong(const Pong& pong, const Moment& now);
-  void takeScan(const Moment& now);
+  void takePong(const Frame& frame, const Pong& pong, const Moment& now);
+  void takeScan(const Frame& frame, const Moment& now);
+  void deliver(std::int64_t stamp, const Moment& now);
   void countLost();
-  void observeArrival(const Frame& frame, const Moment& now);
+  std::int64_t silence() const;
   std::size_t broken() const;
   void judgeSilence(const Moment& now);
   std::int64_t askingPeriod() const;
@@ -102,13 +102,15 @@ class Conversation {
   OnScan on_scan_;
   FrameParser parser_;
   FrameEncoder encoder_;
-  ClockEstimator clock_;
+  DeviceClock clock_;
+  HeadCommandOutbox commands_;
+  HeadWatch head_;
   ConversationCounts counts_;
+  std::string refusal_;
   Trouble trouble_;
   std::optional<Identity> device_;       // at this line, and the right one
   std::optional<Identity> known_;        // the last right one, also from before the line was opened
   std::optional<std::uint32_t> number_;  // of the last scan
-  std::optional<PendingCommand> command_;
   ScanReport report_;
   triangulation::RawScan scan_;
   std::vector<std::uint8_t> outgoing_;
@@ -118,7 +120,10 @@ class Conversation {
   std::int64_t last_frame_ = 0;  // a whole one
   std::int64_t last_scan_ = 0;
   std::size_t broken_before_ = 0;  // by then
+  std::int64_t last_refusal_ = 0;
+  std::int64_t scan_pause_ = 0;  // between the last two scans that followed each other
   std::int64_t last_asked_ = 0;
+  int times_asked_ = 0;  // since the last scan
   std::int64_t last_ping_ = 0;
   bool just_identified_ = false;  // a device has just identified itself
 };

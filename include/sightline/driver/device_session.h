@@ -32,20 +32,24 @@ struct SessionStatus {
   std::size_t connections = 0;  ///< openings of the port
   ConversationCounts counts;
   FrameParser::Counts line;
-  double latency = 0.0;          ///< [s]
-  double drift = 0.0;            ///< of the device clock: host seconds a device second, less one
-  std::size_t clock_resets = 0;  ///< of a device clock that jumped by itself
-  std::size_t bytes = 0;         ///< received
+  HeadCommandOutbox::Counts commands;
+  std::string refusal;     ///< of the last scan that was refused
+  std::string head_fault;  ///< as HeadWatch says it; empty while the head follows
+  double latency = 0.0;    ///< [s]
+  double drift = 0.0;      ///< of the device clock: host seconds a device second, less one
+  bool drift_is_at_limit = false;
+  bool is_faster_than_serial = false;
+  DeviceClock::Counts clock;
+  std::size_t bytes = 0;  ///< received
 };
 
 /// A device at a serial port, from now until the end of the object: opens the port whenever there
 /// is one, and keeps the conversation going. It runs in a thread of its own.
 class DeviceSession {
  public:
-  /// `on_scan` is called by the session's thread; a scan is good until it returns. Serial number
-  /// and samples are the calibration's.
-  DeviceSession(const SessionConfig& config, const std::string& serial, std::size_t samples,
-                Conversation::OnScan on_scan);
+  /// `on_scan` is called by the session's thread; a scan is good until it returns.
+  DeviceSession(const SessionConfig& config, const ExpectedDevice& device,
+                const motion::HeadLimits& head, Conversation::OnScan on_scan);
   /// Tells the device to stop.
   ~DeviceSession();
   DeviceSession(const DeviceSession&) = delete;
@@ -55,6 +59,7 @@ class DeviceSession {
   SessionStatus status() const;
 
  private:
+  Trouble openPort();
   void open();
   void read();
   void onTick();
@@ -68,6 +73,7 @@ class DeviceSession {
   Conversation conversation_;
   std::array<std::uint8_t, 4096> buffer_{};
   Trouble port_trouble_;
+  std::string lasting_name_;  // of the port that was open last, where udev has one
   std::chrono::steady_clock::time_point next_try_;  // to open the port
   std::size_t connections_ = 0;
   std::size_t bytes_ = 0;

@@ -5,9 +5,12 @@
 
 namespace sightline::driver {
 
-/// Currents and head angles of a scan as it came over the line, into vectors that are used again.
-/// The stamp is left alone.
+/// Currents and head angles of a scan as it came over the line, into vectors that are used again. A
+/// count at its end is no current (NaN). The stamp is left alone.
 void toRawScan(const ScanReport& report, triangulation::RawScan& raw);
+
+/// Samples whose counts were at an end.
+std::size_t saturatedSamples(const triangulation::RawScan& raw);
 
 /// The other way: what does not fit is cut off at the ends of what can be counted, and the status
 /// says so. Number, boot and times are left alone.

@@ -15,6 +15,7 @@ enum class Fault {
   kSilentDevice,
   kGarbage,
   kNoScans,
+  kRefusedScans,
   kWrongDevice,
   kWrongVersion,
   kWrongSerial,
