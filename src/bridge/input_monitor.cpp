@@ -11,8 +11,9 @@ constexpr std::chrono::seconds kSilence{5};
 
 }  // namespace
 
-InputMonitor::InputMonitor(std::string topic, diagnostic_updater::Updater& updater, Flow flow)
-    : topic_(std::move(topic)), flow_(flow) {
+InputMonitor::InputMonitor(std::string topic, diagnostic_updater::Updater& updater, Flow flow,
+                           const std::string& type)
+    : topic_(std::move(topic)), flow_(flow), missing_(topic_, type) {
   updater.add("input " + topic_, this, &InputMonitor::report);
 }
 
@@ -33,7 +34,9 @@ void InputMonitor::skip(const std::string& reason) {
   ROS_INFO("%s: message left out: %s (%zu so far)", topic_.c_str(), reason.c_str(), dropped_);
 }
 
+// A message that is of no use came all the same.
 void InputMonitor::count(const std::string& reason) {
+  last_message_ = std::chrono::steady_clock::now();
   ++dropped_;
   last_reason_ = reason;
 }
@@ -47,10 +50,16 @@ void InputMonitor::warn(const std::string& text) {
   if (warned_.isDue()) ROS_WARN("%s: %s", topic_.c_str(), text.c_str());
 }
 
+MissingInput::State InputMonitor::state() const {
+  using State = MissingInput::State;
+  if (std::chrono::steady_clock::now() - last_message_ <= kSilence) return State::kComes;
+  return accepted_ + dropped_ == 0 ? State::kNeverCame : State::kCeased;
+}
+
 void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  const bool is_silent =
-      flow_ == Flow::kSteady && std::chrono::steady_clock::now() - last_message_ > kSilence;
+  if (flow_ == Flow::kSteady) missing_.update(state());
+  const bool is_silent = flow_ == Flow::kSteady && state() != MissingInput::State::kComes;
   if (dropped_ > dropped_before_) {
     status.summary(DiagnosticStatus::WARN, "dropped: " + last_reason_);
   } else if (accepted_ == 0) {

@@ -51,8 +51,9 @@ void LiveFeed::addScanner(ros::NodeHandle& node, const std::string& topic) {
   const std::size_t scanner = input_.addScanner();
   topics_.push_back(topic);
   scanners_.push_back({});
-  scanners_.back().monitor = std::make_unique<InputMonitor>(node.resolveName(topic), updater_,
-                                                            InputMonitor::Flow::kSteady);
+  scanners_.back().monitor =
+      std::make_unique<InputMonitor>(node.resolveName(topic), updater_, InputMonitor::Flow::kSteady,
+                                     ros::message_traits::datatype<Message>());
   scanners_.back().subscriber = node.subscribe<Message>(
       topic, kScanQueue,
       [this, scanner](const typename Message::ConstPtr& message) { onScan(scanner, *message); },

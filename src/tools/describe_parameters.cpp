@@ -1,5 +1,7 @@
 // Prints docs/Parameters.md from the field lists of the configuration structs.
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
 #include "nodes/sync_scan_driver_config.h"
+#include "program/program.h"
 #include "sightline/pipeline/estimators_config.h"
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/path.h"
@@ -27,76 +30,117 @@ A dot in a name is a level of the parameter tree: `tracker.gate.sigmas` is `~tra
 the range.
 )";
 
-void printTable(const std::string& title, const std::string& text,
-                const std::vector<FieldDescription>& rows) {
-  fmt::print("\n## {}\n\n{}\n\n", title, text);
+struct Section {
+  std::string title;
+  std::string text;
+  std::vector<FieldDescription> rows;
+};
+
+void print(const Section& section) {
+  fmt::print("\n## {}\n\n{}\n\n", section.title, section.text);
   fmt::print("| name | type | default | unit | range | meaning |\n|---|---|---|---|---|---|\n");
-  for (const FieldDescription& row : rows) {
+  for (const FieldDescription& row : section.rows) {
     fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", row.key, row.type, row.default_value,
                row.unit, row.range, row.meaning);
   }
 }
 
-// A section for any struct with a field list, with the values that it holds as defaults.
+// Of any struct with a field list, with the values that it holds as defaults.
 template <class Config>
-void print(const std::string& title, const std::string& text) {
+Section sectionOf(const std::string& title, const std::string& text) {
   const Config defaults;
-  printTable(title, text, sightline::config::describe(defaults));
+  return {title, text, sightline::config::describe(defaults)};
 }
 
-void printNodes() {
+std::vector<Section> nodeSections() {
   namespace nodes = sightline::nodes;
-  print<nodes::LineExtractorNodeConfig>(
-      "line_extractor",
-      "Parameters of the node. `config/line_extractor.yaml` holds them with their defaults.");
-  print<nodes::RoomTrackerNodeConfig>("room_tracker", "Parameters of the node.");
-  print<nodes::LaserOdometryNodeConfig>(
-      "laser_odometry",
-      "Parameters of the node. `config/carriers` holds those that depend on who carries the "
-      "scanner.");
-  printTable("estimators", "Parameters of the node.",
-             {{"config", "path", "(empty)", "-", "any",
-               "the file of estimators that `offline` takes, too; must be set"}});
-  print<nodes::SyncScanDriverConfig>("sync_scan_driver", "Parameters of the node.");
-  print<nodes::SimSensorConfig>("sim_sensor", "Parameters of the node.");
-  print<nodes::SimRobotConfig>(
-      "sim_sensor: robots",
-      "Parameters of one robot, below `~robots/NAME` of sim_sensor: NAME is the namespace of its "
-      "topics and the prefix of its frames. Without `~robots` there is one robot, and these are "
-      "the node's own.");
-  print<nodes::SimScannerConfig>("sim_sensor: scanners",
-                                 "Parameters of one scanner, below `scanners/NAME` of its robot.");
-  print<nodes::SimActiveSensorConfig>(
-      "sim_sensor: active sensors",
-      "Parameters of one sensor on a head, below `active_sensors/NAME` of its robot.");
-  print<nodes::SimMoverConfig>(
-      "sim_sensor: movers",
-      "Parameters of one thing that moves through the world, below `~movers/NAME` of sim_sensor.");
+  return {
+      sectionOf<nodes::LineExtractorNodeConfig>(
+          "line_extractor",
+          "Parameters of the node. `config/line_extractor.yaml` holds them with their defaults."),
+      sectionOf<nodes::RoomTrackerNodeConfig>("room_tracker", "Parameters of the node."),
+      sectionOf<nodes::LaserOdometryNodeConfig>(
+          "laser_odometry",
+          "Parameters of the node. `config/carriers` holds those that depend on who carries the "
+          "scanner."),
+      Section{"estimators",
+              "Parameters of the node.",
+              {{"config", "path", "(empty)", "-", "any",
+                "the file of estimators that `offline` takes, too; must be set"}}},
+      sectionOf<nodes::SyncScanDriverConfig>("sync_scan_driver", "Parameters of the node."),
+      sectionOf<nodes::SimSensorConfig>("sim_sensor", "Parameters of the node."),
+      sectionOf<nodes::SimRobotConfig>("sim_sensor: robots",
+                                       "Parameters of one robot, below `~robots/NAME` of "
+                                       "sim_sensor: NAME is the namespace of its "
+                                       "topics and the prefix of its frames. Without `~robots` "
+                                       "there is one robot, and these are "
+                                       "the node's own."),
+      sectionOf<nodes::SimScannerConfig>(
+          "sim_sensor: scanners", "Parameters of one scanner, below `scanners/NAME` of its robot."),
+      sectionOf<nodes::SimActiveSensorConfig>(
+          "sim_sensor: active sensors",
+          "Parameters of one sensor on a head, below `active_sensors/NAME` of its robot."),
+      sectionOf<nodes::SimMoverConfig>("sim_sensor: movers",
+                                       "Parameters of one thing that moves through the world, "
+                                       "below `~movers/NAME` of sim_sensor."),
+  };
 }
 
-void printFiles() {
+std::vector<Section> fileSections() {
   namespace simulation = sightline::simulation;
-  print<sightline::pipeline::EstimatorsConfig>("Files of estimators",
-                                               "What `offline`, `replay.launch` and the node "
-                                               "estimators are given. `rooms` and `odometry` are "
-                                               "there where these estimators are wanted.");
-  print<simulation::ActiveSensorProfile>(
-      "Active sensor profiles",
-      "The files of `config/sensors` for synchronised-scan sensors, real or simulated.");
-  print<simulation::ScannerProfile>("Scanner profiles",
-                                    "The files of `config/sensors` for time-of-flight scanners.");
   auto path = sightline::config::describe<simulation::Path>();
   path.push_back({"waypoints", "list of [x, y]", "-", "m", "[-1e6, 1e6]",
                   "points of the path, in the map; must be set"});
-  printTable("Paths", "The files of `config/paths`, which say where a simulated robot drives.",
-             path);
+  return {
+      sectionOf<sightline::pipeline::EstimatorsConfig>(
+          "Files of estimators",
+          "What `offline`, `replay.launch` and the node "
+          "estimators are given. `rooms` and `odometry` are "
+          "there where these estimators are wanted."),
+      sectionOf<simulation::ActiveSensorProfile>(
+          "Active sensor profiles",
+          "The files of `config/sensors` for synchronised-scan sensors, real or simulated."),
+      sectionOf<simulation::ScannerProfile>(
+          "Scanner profiles", "The files of `config/sensors` for time-of-flight scanners."),
+      Section{"Paths", "The files of `config/paths`, which say where a simulated robot drives.",
+              path},
+  };
+}
+
+std::vector<Section> allSections() {
+  std::vector<Section> sections = nodeSections();
+  for (Section& section : fileSections()) sections.push_back(std::move(section));
+  return sections;
+}
+
+// Sections of a node: its own and those of the parts of its tree.
+bool isOf(const Section& section, const std::string& node) {
+  return section.title == node || section.title.rfind(node + ":", 0) == 0;
+}
+
+int describe(const std::optional<std::string>& node) {
+  const std::vector<Section> sections = allSections();
+  if (!node) fmt::print("{}", kHead);
+  bool is_known = !node;
+  for (const Section& section : sections) {
+    if (node && !isOf(section, *node)) continue;
+    is_known = true;
+    print(section);
+  }
+  if (is_known) return 0;
+  std::string names;
+  for (const Section& section : sections) names += "\n  " + section.title;
+  throw sightline::tools::UsageError("no section '" + *node + "'; there are:" + names);
 }
 
 }  // namespace
 
-int main() {
-  fmt::print("{}", kHead);
-  printNodes();
-  printFiles();
-  return 0;
+int main(int argc, char** argv) {
+  std::optional<std::string> node;
+  sightline::tools::Program program(
+      "describe_parameters",
+      "Prints every parameter of the nodes and every key of their files, with unit, range and "
+      "default, as in docs/Parameters.md.");
+  program.positional("NODE", node, "a node, or another section, alone");
+  return program.run(argc, argv, [&] { return describe(node); });
 }

@@ -11,6 +11,7 @@
 
 #include "bench/allocations.h"
 #include "bench/driver/channel.h"
+#include "bench/driver/foreign.h"
 #include "bench/driver/head.h"
 #include "bench/figures.h"
 #include "driver/sample_messages.h"
@@ -199,6 +200,11 @@ void measureHead() {
   HeadSteps(folder.path("")).run();
 }
 
+void measureForeignDevice() {
+  const test::TemporaryFolder folder;
+  ForeignDevice(folder.path("")).run();
+}
+
 int run() {
   measureParser();
   const Master master;
@@ -208,6 +214,8 @@ int run() {
   measureCables();
   std::fprintf(stderr, "driver: steps of the head\n");
   measureHead();
+  std::fprintf(stderr, "driver: a device written from the document alone\n");
+  measureForeignDevice();
   return 0;
 }
 

@@ -9,6 +9,7 @@
 
 #include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/log_throttle.h"
+#include "sightline/bridge/missing_input.h"
 #include "sightline/scan/learned_noise.h"
 
 namespace sightline::bridge {
@@ -22,9 +23,10 @@ class InputMonitor {
   /// never.
   enum class Flow { kSteady, kNowAndThen, kPerhaps };
 
-  /// Registers with the updater, which has to live as long.
+  /// Registers with the updater, which has to live as long. With a `type` of message, silence is
+  /// told in the log, too.
   InputMonitor(std::string topic, diagnostic_updater::Updater& updater,
-               Flow flow = Flow::kNowAndThen);
+               Flow flow = Flow::kNowAndThen, const std::string& type = "");
 
   /// Does something with a message that may throw BadMessage, and counts it either way.
   template <class Use>
@@ -49,6 +51,7 @@ class InputMonitor {
 
  private:
   void count(const std::string& reason);
+  MissingInput::State state() const;
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   std::string topic_;
@@ -62,7 +65,9 @@ class InputMonitor {
   std::map<std::string, std::size_t> warnings_;
   LogThrottle drops_;
   LogThrottle warned_;
-  std::chrono::steady_clock::time_point last_message_;
+  MissingInput missing_;
+  // The last message, or the beginning.
+  std::chrono::steady_clock::time_point last_message_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace sightline::bridge

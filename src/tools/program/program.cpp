@@ -36,7 +36,7 @@ Program::Program(const std::string& name, const std::string& purpose)
   // Replaces CLI11's own flag, which comes after the faults of the words around it.
   app_->set_help_flag();
   app_->add_flag_callback(
-          "--help", [] { throw CLI::CallForHelp(); }, "print this and end")
+          "-h,--help", [] { throw CLI::CallForHelp(); }, "print this and end")
       ->trigger_on_parse();
 }
 
