@@ -58,6 +58,7 @@ int main(int, char** argv) {
   bench::edges(profile);
   bench::lineConsistency(profile);
   bench::jitterConsistency(profile);
+  bench::calibratedConsistency(profile);
   bench::drawSegmentsAgainstGate(
       profile,
       std::filesystem::path(argv[0]).replace_filename("segments_against_gate.png").string());
