@@ -23,7 +23,7 @@ class DeviceCheckTest : public ::testing::Test {
     triangulation::RawScan raw;
     const auto& pattern = *check_geometry_;
     for (std::size_t i = 0; i < pattern.beams(); ++i) {
-      const double direction = pattern.angle(is_reversed_ ? pattern.beams() - 1 - i : i);
+      const double direction = pattern.angles()[is_reversed_ ? pattern.beams() - 1 - i : i];
       const double range = depthAt(direction + head) / std::cos(direction);
       auto pair = triangulation::photocurrentsAt(geometry.imagePosition(range, direction), 1e-8,
                                                  parameters.intrinsics.detector_length);

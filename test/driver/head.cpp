@@ -7,11 +7,11 @@
 namespace sightline::driver {
 namespace {
 
-using Mode = motion::HeadCommand::Mode;
+using CommandMode = motion::HeadCommand::Mode;
 
 constexpr std::int64_t kMillisecond = 1'000'000;
-constexpr motion::HeadCommand kAhead{Mode::kPosition, 0.0, 0.0};
-constexpr motion::HeadCommand kAside{Mode::kPosition, 0.5, 0.0};
+constexpr motion::HeadCommand kAhead{CommandMode::kPosition, 0.0, 0.0};
+constexpr motion::HeadCommand kAside{CommandMode::kPosition, 0.5, 0.0};
 
 // Times at which a command goes out in two seconds [ms].
 std::vector<int> timesSent(HeadCommandOutbox& outbox) {
@@ -33,7 +33,7 @@ TEST(HeadCommandOutbox, NewestWins) {
   HeadCommandOutbox outbox;
   int sent = 0;
   for (int ms = 1000; ms < 2000; ++ms) {
-    outbox.give({Mode::kPosition, 1e-3 * ms, 0.0}, ms * kMillisecond);
+    outbox.give({CommandMode::kPosition, 1e-3 * ms, 0.0}, ms * kMillisecond);
     const auto target = outbox.due(ms * kMillisecond);
     if (!target) continue;
     ++sent;
@@ -71,11 +71,11 @@ TEST(HeadWatch, HeadThatArrivedOrHaltedAtALimitIsWell) {
   watch.command(kAhead, 0);
   watch.observe({0.01}, 5000 * kMillisecond);
   EXPECT_EQ(watch.fault(), "");
-  watch.command({Mode::kRate, 0.0, -1.0}, 5000 * kMillisecond);
+  watch.command({CommandMode::kRate, 0.0, -1.0}, 5000 * kMillisecond);
   watch.observe({motion::HeadLimits{}.lower}, 5100 * kMillisecond);
   watch.observe({motion::HeadLimits{}.lower}, 9000 * kMillisecond);
   EXPECT_EQ(watch.fault(), "");
-  watch.command({Mode::kRate, 0.0, 1.0}, 9000 * kMillisecond);
+  watch.command({CommandMode::kRate, 0.0, 1.0}, 9000 * kMillisecond);
   watch.observe({motion::HeadLimits{}.lower}, 10500 * kMillisecond);
   EXPECT_EQ(watch.fault(), "does not follow: at -1.57 rad, told to turn at 1.00 rad/s");
   watch.command({}, 10500 * kMillisecond);
