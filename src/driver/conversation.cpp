@@ -157,9 +157,12 @@ void Conversation::takeIdentity(const Identity& identity) {
 }
 
 void Conversation::takePong(const Frame& frame, const Pong& pong, const Moment& now) {
-  // The token is the low end of the time at which the last byte of the ping went.
-  const std::int64_t ago = 1000 * static_cast<std::int64_t>(microseconds(now.steady) - pong.token);
-  if (ago < 10'000 * kMillisecond) clock_.takePong(frame, pong, now.steady - ago, now.steady);
+  // The token is the low end of the time at which the last byte of the ping was to have gone. On
+  // native USB the answer may be here before.
+  const auto ago = static_cast<std::int32_t>(microseconds(now.steady) - pong.token);
+  if (std::abs(ago) < 10'000'000) {
+    clock_.takePong(frame, pong, now.steady - 1000 * std::int64_t{ago}, now.steady);
+  }
 }
 
 void Conversation::countLost() {

@@ -225,6 +225,7 @@ def main():
     device.plug_in()
     device.boot_anew()
     device.play("usb", 6, usb=True, acknowledge_after=0.0)
+    time.sleep(0.5)  # or the end of the terminal would take the last scan with it
 
 
 if __name__ == "__main__":

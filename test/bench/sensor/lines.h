@@ -11,6 +11,7 @@
 #include "sightline/geometry/statistics.h"
 #include "sightline/lines/line_extractor.h"
 #include "sightline/simulation/active_sensor.h"
+#include "sightline/triangulation/calibration_writer.h"
 #include "sightline/triangulation/parameter_estimation.h"
 
 namespace sightline::bench {
