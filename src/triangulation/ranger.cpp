@@ -69,6 +69,21 @@ RangeReading Ranger::read(std::size_t beam, const Photocurrents& currents) const
   return readAt(beam, currents.total(), p, p);
 }
 
+std::vector<Photocurrents> Ranger::withoutLag(const std::vector<Photocurrents>& measured) const {
+  const double memory = calibration_.parameters.scan.memory();
+  if (memory == 0.0) return measured;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Photocurrents> currents{{kUnknown, kUnknown}};
+  for (std::size_t i = 1; i < measured.size(); ++i) {
+    const auto ahead = [&](double now, double before) {
+      return (now - memory * before) / (1.0 - memory);
+    };
+    currents.push_back({ahead(measured[i].first, measured[i - 1].first),
+                        ahead(measured[i].second, measured[i - 1].second)});
+  }
+  return currents;
+}
+
 double Ranger::litPosition(const Photocurrents& currents) const {
   const SensorParameters& parameters = calibration_.parameters;
   if (!(currents.total() >= parameters.scan.min_current)) {
@@ -79,8 +94,10 @@ double Ranger::litPosition(const Photocurrents& currents) const {
 
 double Ranger::sigma(double current) const {
   const SensorParameters& parameters = calibration_.parameters;
-  return imagePositionSigma(current, parameters.noise_current,
-                            parameters.intrinsics.detector_length);
+  const double memory = parameters.scan.memory();
+  const double noise_current =
+      parameters.noise_current * std::sqrt((1.0 + memory) / (1.0 - memory));
+  return imagePositionSigma(current, noise_current, parameters.intrinsics.detector_length);
 }
 
 RangeReading Ranger::readAt(std::size_t beam, double current, double p, double p_of_gain) const {
@@ -120,11 +137,12 @@ motion::RangeScan Ranger::range(const RawScan& raw) const {
   result.head.angles = raw.head_angles;
   result.head.origin = calibration_.parameters.origin.position();
   std::vector<double> positions;
-  positions.reserve(raw.currents.size());
-  for (const Photocurrents& currents : raw.currents) positions.push_back(litPosition(currents));
+  const auto currents = withoutLag(raw.currents);
+  positions.reserve(currents.size());
+  for (const Photocurrents& pair : currents) positions.push_back(litPosition(pair));
   Readings readings;
   for (std::size_t beam = 0; beam < geometry_->beams(); ++beam) {
-    const double current = raw.currents[beam].total();
+    const double current = currents[beam].total();
     const double p = positions[beam];
     const double around =
         neighbouringPosition(positions, beam, kSameSurface * sigma(current)).value_or(p);

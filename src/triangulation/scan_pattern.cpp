@@ -1,5 +1,7 @@
 #include "sightline/triangulation/scan_pattern.h"
 
+#include <cmath>
+
 namespace sightline::triangulation {
 
 void ScanPattern::visit(config::FieldVisitor& visitor) {
@@ -11,6 +13,11 @@ void ScanPattern::visit(config::FieldVisitor& visitor) {
   visitor.number("range_max", range_max, {"m", {1e-3, 1000.0}, "farthest range along a beam"});
   visitor.number("min_current", min_current,
                  {"A", {1e-15, 1.0}, "with less light there is no measurement"});
+  visitor.number("bandwidth", bandwidth,
+                 {"Hz",
+                  {0.0, 1e7},
+                  "of the one pole of the detector (pears table 1: 1 kHz); what samples share is "
+                  "taken out; 0: none"});
 }
 
 void ScanPattern::check(const std::string& source) const {
@@ -22,6 +29,10 @@ void ScanPattern::check(const std::string& source) const {
 
 double ScanPattern::scanAngle(double beam) const {
   return field_of_view * (beam / (beams - 1) - 0.5);
+}
+
+double ScanPattern::memory() const {
+  return bandwidth > 0.0 ? std::exp(-2.0 * geometry::kPi * bandwidth / sample_rate) : 0.0;
 }
 
 std::shared_ptr<const scan::ScanGeometry> ScanPattern::geometry(double projected_vergence) const {

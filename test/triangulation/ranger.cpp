@@ -141,6 +141,30 @@ TEST(Ranger, MakesAScanOfWhatTheSensorDelivers) {
   EXPECT_NEAR(result.head.origin.x(), 0.05, 1e-12);
 }
 
+// What one pole made of a scan with an edge, is the scan again; but for the first sample.
+TEST(Ranger, LagOfTheDetectorIsUndone) {
+  const Ranger without(calibration());
+  Calibration of_slow = calibration();
+  of_slow.parameters.scan.bandwidth = 1000.0;
+  const Ranger ranger(of_slow);
+  RawScan raw = rawScan(without, 1.0, 1e-8);
+  for (std::size_t i = 128; i < 256; ++i) raw.currents[i] = currentsOf(without, i, 1.7, 4e-9);
+  const motion::RangeScan expected = without.range(raw);
+  const double memory = of_slow.parameters.scan.memory();
+  EXPECT_NEAR(memory, 0.081, 1e-3);
+  for (std::size_t i = 1; i < 256; ++i) {
+    raw.currents[i].first += memory * (raw.currents[i - 1].first - raw.currents[i].first);
+    raw.currents[i].second += memory * (raw.currents[i - 1].second - raw.currents[i].second);
+  }
+  const motion::RangeScan found = ranger.range(raw);
+  EXPECT_EQ(found.scan.kind(0), ReturnKind::kInvalid);
+  const double price = (1.0 + memory) / (1.0 - memory);
+  for (std::size_t i = 1; i < 256; ++i) {
+    EXPECT_NEAR(found.scan.range(i), expected.scan.range(i), 1e-9) << i;
+    EXPECT_NEAR(found.scan.rangeVariances()[i], price * expected.scan.rangeVariances()[i], 1e-12);
+  }
+}
+
 TEST(Ranger, RefusesScansThatDoNotFit) {
   const Ranger ranger(calibration());
   RawScan raw = rawScan(ranger, 1.0, 25e-9);

@@ -155,7 +155,7 @@ inline triangulation::Calibration calibratedByRig(const simulation::ActiveSensor
 /// Lines of a sensor that a rig has calibrated, with the detector's bandwidth on: neighbours share
 /// some of their light and noise. Ten rigs, every wall, 30 scans each.
 inline void calibratedConsistency(simulation::ActiveSensorProfile profile) {
-  profile.bandwidth = 1000.0;  // Hz, pears table 1
+  profile.bandwidth = profile.sensor.scan.bandwidth = 1000.0;  // Hz, pears table 1
   NeesSum all;
   for (std::uint64_t rig = 1; rig <= 10; ++rig) {
     const auto calibration = calibratedByRig(profile, rig);
