@@ -157,10 +157,10 @@ TEST(Ranger, LagOfTheDetectorIsUndone) {
     raw.currents[i].second += memory * (raw.currents[i - 1].second - raw.currents[i].second);
   }
   const motion::RangeScan found = ranger.range(raw);
-  EXPECT_EQ(found.scan.kind(0), ReturnKind::kInvalid);
+  EXPECT_EQ(found.scan.kinds()[0], ReturnKind::kInvalid);
   const double price = (1.0 + memory) / (1.0 - memory);
   for (std::size_t i = 1; i < 256; ++i) {
-    EXPECT_NEAR(found.scan.range(i), expected.scan.range(i), 1e-9) << i;
+    EXPECT_NEAR(found.scan.ranges()[i], expected.scan.ranges()[i], 1e-9) << i;
     EXPECT_NEAR(found.scan.rangeVariances()[i], price * expected.scan.rangeVariances()[i], 1e-12);
   }
 }
