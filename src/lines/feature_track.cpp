@@ -26,8 +26,6 @@ constexpr struct {
   double misplaced_by = 0.05;
   // Features that are new, where one is seen [1/m²]: ten in a room.
   double new_density = 0.5;
-  // Share of the sightings that show a feature as another kind of thing.
-  double unlike = 0.05;
   // Two tracks of one feature may be so far apart [m].
   double most_apart = 0.1;
 } kTrack;
@@ -45,6 +43,15 @@ std::array<double, 3> priorOf(FeatureKind kind) {
       break;
   }
   return {0.80, 0.0, 0.20};
+}
+
+// A corner of which one wall is seen looks like an edge. A centre is no place on a surface, and
+// where the view of a wall ends is none that the wall has.
+bool areAlike(FeatureKind a, FeatureKind b) {
+  const auto isOfWall = [](FeatureKind kind) {
+    return kind == FeatureKind::kCorner || kind == FeatureKind::kEdge;
+  };
+  return a == b || (isOfWall(a) && isOfWall(b));
 }
 
 double densityWithMisplaced(const FeatureHypothesis::Innovation& innovation) {
@@ -97,8 +104,6 @@ void FeatureTrack::change(double elapsed) {
 
 double FeatureTrack::distance(const Sighting& sighting) const {
   double least = std::numeric_limits<double>::infinity();
-  // A centre is no place on a surface.
-  if ((kind_ == FeatureKind::kArc) != (sighting.kind == FeatureKind::kArc)) return least;
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     if (probabilities_[i] < kTrack.ruled_out) continue;
     least = std::min(least, hypotheses_[i].innovation(sighting).nis());
@@ -111,18 +116,17 @@ double FeatureTrack::density(const Sighting& sighting) const {
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     sum += probabilities_[i] * hypotheses_[i].innovation(sighting).density();
   }
-  const bool is_alike =
-      (kind_ == FeatureKind::kLineEnd) == (sighting.kind == FeatureKind::kLineEnd);
-  return is_alike ? sum : kTrack.unlike * sum;
+  return sum;
 }
 
 bool FeatureTrack::mayBe(const Sighting& sighting) const {
-  return distance(sighting) < geometry::chiSquareLimitOf2(config_->gate) &&
+  return areAlike(kind_, sighting.kind) &&
+         distance(sighting) < geometry::chiSquareLimitOf2(config_->gate) &&
          density(sighting) > kTrack.new_density;
 }
 
 bool FeatureTrack::isAt(const FeatureTrack& other) const {
-  if ((kind_ == FeatureKind::kArc) != (other.kind_ == FeatureKind::kArc)) return false;
+  if (!areAlike(kind_, other.kind_)) return false;
   const Eigen::Vector2d apart = position() - other.position();
   const Eigen::Matrix2d sum = covariance() + other.covariance();
   return apart.norm() < kTrack.most_apart &&
@@ -177,7 +181,6 @@ void FeatureTrack::see(const Sighting& sighting) {
       hypotheses_[i].restart(sighting);
     }
   }
-  // A corner of which one wall is seen looks like an edge.
   take(sighting.kind);
   unseen_ = 0.0;
   missed_ = 0.0;

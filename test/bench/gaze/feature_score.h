@@ -21,7 +21,7 @@ class FeatureScore {
     for (const auto& segment : world.segments()) {
       for (const auto& place : {segment.segment.start, segment.segment.end}) addPlace(place);
     }
-    for (const auto& disc : world.discs()) addPlace(disc.centre);
+    for (const auto& disc : world.discs()) places_.push_back({disc.centre, true});
   }
 
   void add(const pipeline::Estimates& estimates, const geometry::Pose2& T_map_base) {
@@ -57,6 +57,7 @@ class FeatureScore {
  private:
   struct Place {
     Eigen::Vector2d map;
+    bool is_round = false;
     std::uint32_t id = 0;  // of the feature there, while it stays in view
   };
 
@@ -71,6 +72,7 @@ class FeatureScore {
     const Place* nearest = nullptr;
     double least = 0.15 + 2.0 * std::sqrt(feature.covariance.trace());
     for (const Place& place : places_) {
+      if (place.is_round != (feature.kind == geometry::FeatureKind::kArc)) continue;
       const double distance = (T_odom_map * place.map - feature.position).norm();
       if (distance >= least) continue;
       least = distance;
