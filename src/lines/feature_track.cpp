@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/LU>
 
@@ -102,27 +101,17 @@ void FeatureTrack::change(double elapsed) {
   moving += starting - stopping;
 }
 
-double FeatureTrack::distance(const Sighting& sighting) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
-    if (probabilities_[i] < kTrack.ruled_out) continue;
-    least = std::min(least, hypotheses_[i].innovation(sighting).nis());
-  }
-  return least;
-}
-
 double FeatureTrack::density(const Sighting& sighting) const {
+  if (!areAlike(kind_, sighting.kind)) return 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
-    sum += probabilities_[i] * hypotheses_[i].innovation(sighting).density();
+    sum += probabilities_[i] * densityWithMisplaced(hypotheses_[i].innovation(sighting));
   }
   return sum;
 }
 
 bool FeatureTrack::mayBe(const Sighting& sighting) const {
-  return areAlike(kind_, sighting.kind) &&
-         distance(sighting) < geometry::chiSquareLimitOf2(config_->gate) &&
-         density(sighting) > kTrack.new_density;
+  return density(sighting) > kTrack.new_density;
 }
 
 bool FeatureTrack::isAt(const FeatureTrack& other) const {

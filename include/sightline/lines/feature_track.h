@@ -43,8 +43,6 @@ class FeatureTrack {
 
   const FeatureHypothesis& likeliest() const;
   std::size_t likeliestIndex() const;
-  // Least squared distance from the hypotheses that are not ruled out [σ²].
-  double distance(const Sighting& sighting) const;
   void take(geometry::FeatureKind kind);
   void change(double elapsed);
   void weigh(const Sighting& sighting);

@@ -42,8 +42,8 @@ inline void addMovers(const FeatureScenario& scenario, simulation::Simulation& s
     face.radius = 0.0;
     face.width = 0.6;
     simulation.addMover(face,
-                        pathOf("{speed: 0.3, turn_rate: 0.5, repeat: true, waypoints: [[6.2, 0.5], "
-                               "[2.0, 0.5], [2.0, 1.4], [4.0, 1.4]]}"),
+                        pathOf("{speed: 0.3, turn_rate: 0.5, repeat: true, waypoints: [[4.2, 0.6], "
+                               "[1.0, 0.6]]}"),
                         {2.0, 0.6, 0.0});
   }
   if (scenario.person) {
