@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "nodes/gaze_config.h"
 #include "nodes/laser_odometry_config.h"
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
@@ -54,6 +55,7 @@ void printNodes() {
       "laser_odometry",
       "Parameters of the node. `config/carriers` holds those that depend on who carries the "
       "scanner.");
+  print<nodes::GazeNodeConfig>("gaze", "Parameters of the node.");
   printTable("estimators", "Parameters of the node.",
              {{"config", "path", "(empty)", "-", "any",
                "the file of estimators that `offline` takes, too; must be set"}});

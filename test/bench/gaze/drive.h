@@ -45,11 +45,17 @@ class Drive {
   /// Changes what an active sensor reports, before anybody sees it.
   void edit(std::function<void(motion::RangeScan&)> edit) { edit_ = std::move(edit); }
 
+  /// Hears what the robot reports besides its scans.
+  void listen(std::function<void(const simulation::Outputs&)> on_outputs) {
+    on_outputs_ = std::move(on_outputs);
+  }
+
   /// Moves on by one step of the simulation.
   void step(const OnScan& on_scan) {
     simulation::Outputs outputs = simulation_.step();
     truth_.add(simulation_.time(), simulation_.robot().T_map_base());
     for (const auto& state : outputs.states) transforms_.drive(state.stamp, state.pose.mean);
+    if (on_outputs_) on_outputs_(outputs);
     for (auto& finished : outputs.sweeps) {
       finished.scan.frame = "laser";
       feed_.add(0, std::move(finished.scan), simulation_.time());
@@ -79,6 +85,7 @@ class Drive {
   pipeline::Estimators estimators_;
   motion::PoseHistory truth_;
   std::function<void(motion::RangeScan&)> edit_;
+  std::function<void(const simulation::Outputs&)> on_outputs_;
 };
 
 }  // namespace sightline::bench
