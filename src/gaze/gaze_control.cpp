@@ -211,15 +211,15 @@ std::optional<double> GazeControl::wantedInforming(std::int64_t now) {
   if (!pose_ || !isFresh(pose_->stamp, now)) return rest("no pose");
   const auto T_map_base = T_map_baseAt(now);
   if (!T_map_base) return rest("no odometry");
-  if (now - chosen_at_ < nanosecondsOf(config_.inform.period)) return chosen_;
-  chosen_at_ = now;
-  const LookingPlace place{*T_map_base, *T_base_mount_,
-                           map_->nearestRoom(T_map_base->mean.translation()),
-                           watch_.angle().value_or(config_.rest), twist()};
-  const Look look = informative_.choose(place, *map_, visibility_);
-  chosen_ = look.angle;
-  if (!look.has_walls) return rest("no wall of the map is within reach");
-  return chosen_;
+  if (now - chosen_at_ >= nanosecondsOf(config_.inform.period)) {
+    chosen_at_ = now;
+    const LookingPlace place{*T_map_base, *T_base_mount_,
+                             map_->nearestRoom(T_map_base->mean.translation()),
+                             watch_.angle().value_or(config_.rest), twist()};
+    look_ = informative_.choose(place, *map_, visibility_);
+  }
+  if (!look_.has_walls) return rest("no wall of the map is within reach");
+  return look_.angle;
 }
 
 std::optional<double> GazeControl::wanted(std::int64_t now) {

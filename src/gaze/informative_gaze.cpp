@@ -133,6 +133,7 @@ Look InformativeGaze::choose(const LookingPlace& place, const world::RoomMap& ma
   ahead.T_map_base = after(place, config_->inform.dwell, config_->odometry);
   const std::vector<Ray> rays = cast(ahead, map, visibility);
   Look best{place.head_angle, 0.0, !rays.empty()};
+  if (rays.empty()) return best;
   for (double angle = config_->head.lower; angle <= config_->head.upper; angle += kLooks.angle) {
     const Matrix3d information = informationOf(rays, angle);
     const double drop = rate(place, information, travelTime(place.head_angle, angle));

@@ -106,7 +106,7 @@ class GazeControl {
   std::optional<std::int64_t> now_;
   std::int64_t scanned_at_ = 0;  // last scan that was looked at for what hides walls
   std::int64_t chosen_at_ = 0;   // last choice of the mode inform
-  double chosen_ = 0.0;          // [rad]
+  Look look_;
   double sweep_sense_ = 1.0;
   std::optional<double> commanded_;  // [rad]
   std::int64_t commanded_at_ = 0;

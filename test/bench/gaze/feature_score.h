@@ -50,7 +50,9 @@ class FeatureScore {
   double nees() const { return nees_ / judged_; }
   double inGate() const { return 100.0 * inside_ / judged_; }
   /// A minute that a feature stays in view.
-  double idChanges(double scan_rate) const { return changes_ / (scans_in_view_ / scan_rate / 60.0); }
+  double idChanges(double scan_rate) const {
+    return changes_ / (scans_in_view_ / scan_rate / 60.0);
+  }
   double recall() const { return 100.0 * fixed_claimed_ / fixed_; }
   double precision() const { return 100.0 * claimed_rightly_ / claimed_; }
 
@@ -97,8 +99,8 @@ class FeatureScore {
     if (place && feature.kind != geometry::FeatureKind::kLineEnd) ++fixed_;
     if (place && feature.kind != geometry::FeatureKind::kLineEnd && is_claimed) ++fixed_claimed_;
   }
-  void follow(Place& place, const pipeline::Estimates& estimates,
-              const geometry::Pose2& T_odom_map, const Eigen::Vector2d& p_sensor) {
+  void follow(Place& place, const pipeline::Estimates& estimates, const geometry::Pose2& T_odom_map,
+              const Eigen::Vector2d& p_sensor) {
     if (lines::lookAt(p_sensor, 0.05, estimates.located.scan) != lines::PlaceInView::kSeen) {
       place.id = 0;
       return;

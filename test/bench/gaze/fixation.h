@@ -18,9 +18,9 @@ inline const Eigen::Vector2d kFixated{2.0, 1.0};
 
 struct FixationCase {
   const char* name;
-  double aside = 1.0;       // of the corner [m]
-  double turn_rate = 0.0;   // of the robot, standing in front of the corner [rad/s]
-  double occlusion = 0.0;   // of the corner, by somebody [s]
+  double aside = 1.0;      // of the corner [m]
+  double turn_rate = 0.0;  // of the robot, standing in front of the corner [rad/s]
+  double occlusion = 0.0;  // of the corner, by somebody [s]
 };
 
 struct FixationResult {
@@ -51,9 +51,7 @@ class FixationRun {
   }
 
  private:
-  static world::World worldOf() {
-    return world::World(config::Node::parse(kCornerWorld, "world"));
-  }
+  static world::World worldOf() { return world::World(config::Node::parse(kCornerWorld, "world")); }
   static pipeline::EstimatorsConfig configOf() {
     pipeline::EstimatorsConfig config;
     config.features.odometry = simulation::RobotConfig{}.odometry;
@@ -75,9 +73,8 @@ class FixationRun {
     look.position = rig_.gaze().config().field.aimAt(T_map_mount.inverse() * kFixated);
     drive_.carrier().commandHead(0, look);
     rig_.run(kFound, [](const auto&, const auto&) {});
-    const geometry::Pose2 T_odom_map =
-        drive_.simulation().robot().odometry().pose().mean *
-        drive_.simulation().robot().T_map_base().inverse();
+    const geometry::Pose2 T_odom_map = drive_.simulation().robot().odometry().pose().mean *
+                                       drive_.simulation().robot().T_map_base().inverse();
     is_found_ = rig_.gaze().fixateAt(T_odom_map * kFixated).success;
   }
 
@@ -126,8 +123,8 @@ inline void fixation(std::uint64_t seeds) {
       sum.in_reach += result.in_reach;
       sum.in_view += result.in_view;
     }
-    print(std::string("gaze.fixation.") + of.name + ".in_view",
-          100.0 * sum.in_view / sum.in_reach, "%");
+    print(std::string("gaze.fixation.") + of.name + ".in_view", 100.0 * sum.in_view / sum.in_reach,
+          "%");
     std::printf("# gaze.fixation.%s: %.0f scans within reach\n", of.name, sum.in_reach);
     all.in_reach += sum.in_reach;
     all.in_view += sum.in_view;

@@ -8,8 +8,8 @@
 namespace sightline::bench {
 
 inline simulation::ActiveSensorProfile activeSensor() {
-  return simulation::ActiveSensorProfile::readFile(
-      SIGHTLINE_SOURCE_DIR "/config/sensors/synchronised_scan.yaml");
+  return simulation::ActiveSensorProfile::readFile(SIGHTLINE_SOURCE_DIR
+                                                   "/config/sensors/synchronised_scan.yaml");
 }
 
 /// Head angles as the sensor of the paper tells them: steps of 0.36° (table 1), and noise of half

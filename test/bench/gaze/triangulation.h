@@ -16,11 +16,13 @@ struct GazePlace {
   double seconds;
 };
 inline const GazePlace kGazePlaces[] = {
-    {"living_room", {-3.2, 1.4, 0.0},
+    {"living_room",
+     {-3.2, 1.4, 0.0},
      "{speed: 0.3, turn_rate: 0.8, tolerance: 0.2, repeat: true, waypoints: [[0.3, 1.13], "
      "[1.2, -0.5], [3.2, -1.2], [1.2, -1.2], [0, 0], [-1.5, 1.2], [-3.2, 1.4]]}",
      100.0},
-    {"corridor", {20.0, 0.0, 0.0},
+    {"corridor",
+     {20.0, 0.0, 0.0},
      "{speed: 0.4, turn_rate: 0.8, tolerance: 0.2, repeat: true, waypoints: [[26.3, 0.0], "
      "[20.0, 0.1]]}",
      60.0},
@@ -50,8 +52,7 @@ inline pipeline::EstimatorsConfig trackingConfig(const GazePlace& place) {
   pipeline::EstimatorsConfig config;
   const motion::OdometryNoise wheels = simulation::RobotConfig{}.odometry;
   config.rooms.emplace();
-  config.rooms->map =
-      std::string(SIGHTLINE_SOURCE_DIR "/config/rooms/") + place.name + ".yaml";
+  config.rooms->map = std::string(SIGHTLINE_SOURCE_DIR "/config/rooms/") + place.name + ".yaml";
   config.rooms->initial_pose = place.start;
   config.rooms->initial_sigma = {0.05, 0.02};
   config.rooms->tracker.odometry = wheels;
@@ -78,8 +79,7 @@ inline PoseSpread spreadOf(const GazePlace& place, const GazeWay& way, std::uint
   PoseSpread spread;
   rig.run(place.seconds, [&](const pipeline::Estimates& estimates, const geometry::Pose2& truth) {
     if (!estimates.rooms) return;
-    spread.sigmas +=
-        std::sqrt(estimates.rooms->pose.covariance.topLeftCorner<2, 2>().trace());
+    spread.sigmas += std::sqrt(estimates.rooms->pose.covariance.topLeftCorner<2, 2>().trace());
     spread.errors += (estimates.rooms->pose.mean.translation() - truth.translation()).norm();
     spread.scans += 1.0;
   });
