@@ -20,7 +20,7 @@ struct FixationCase {
   const char* name;
   double aside = 1.0;      // of the corner [m]
   double turn_rate = 0.0;  // of the robot, standing in front of the corner [rad/s]
-  double occlusion = 0.0;  // of the corner, by somebody [s]
+  bool occluded = false;   // for two seconds, by somebody who walks by
 };
 
 struct FixationResult {
@@ -36,15 +36,17 @@ class FixationRun {
       : case_(of),
         drive_(worldOf(), simulation::RobotConfig{}, startOf(of), seed, configOf(),
                {true, false, false, true}),
-        rig_(drive_, {}, seed) {}
+        rig_(drive_, {}, seed) {
+    if (of.occluded) addPasserBy();
+  }
 
   FixationResult result() {
     find();
     while (drive_.time() < end()) {
       command();
       rig_.step([&](const auto& estimates, const auto& T_map_base) {
-        cover(estimates);
         score(estimates, T_map_base);
+        if (case_.occluded) time(estimates, T_map_base);
       });
     }
     return result_;
@@ -81,7 +83,7 @@ class FixationRun {
   void command() {
     const double since = drive_.time() - kFound;
     if (case_.turn_rate == 0.0) {
-      drive_.carrier().command({case_.occlusion > 0.0 ? 0.15 : 0.5, 0.0});
+      drive_.carrier().command({case_.occluded ? 0.1 : 0.5, 0.0});
     } else {
       // To and fro by 60° each way.
       const double phase = std::fmod(since * case_.turn_rate / geometry::radians(60.0) + 1.0, 4.0);
@@ -89,8 +91,37 @@ class FixationRun {
     }
   }
 
-  // Somebody stands before the corner for a while: the features of the scans do not hold it.
-  void cover(const pipeline::Estimates&) {}
+  // Somebody whose way crosses that from the sensor to the corner.
+  void addPasserBy() {
+    simulation::Body body;
+    body.radius = 0.35;
+    body.top = 1.8;
+    drive_.simulation().addMover(
+        body, pathOf("{wait: 0.2, speed: 0.35, turn_rate: 1.0, waypoints: [[0.4, 1.75]]}"),
+        {2.25, -0.7, std::atan2(2.45, -1.85)});
+  }
+
+  // Time from the first scan that has nothing nearer before the corner to the first that shows it.
+  void time(const pipeline::Estimates& estimates, const geometry::Pose2& T_map_base) {
+    const Eigen::Vector2d p_sensor =
+        estimates.located.T_base_sensor->inverse() * (T_map_base.inverse() * kFixated);
+    const double stamp = 1e-9 * static_cast<double>(estimates.located.scan.stamp);
+    const auto view = lines::lookAt(p_sensor, 0.03, estimates.located.scan);
+    if (view == lines::PlaceInView::kHidden) {
+      ++hidden_scans_;
+      free_since_.reset();
+      return;
+    }
+    if (hidden_scans_ < 10) return;
+    if (!free_since_) free_since_ = stamp;
+    for (const auto& feature : *estimates.features) {
+      if (feature.id != rig_.gaze().state().target || feature.unseen > 0.0) continue;
+      result_.reacquired.push_back(stamp - *free_since_);
+      hidden_scans_ = 0;
+      free_since_.reset();
+      return;
+    }
+  }
 
   void score(const pipeline::Estimates& estimates, const geometry::Pose2& T_map_base) {
     const scan::Scan& scan = estimates.located.scan;
@@ -100,7 +131,12 @@ class FixationRun {
     const auto seen = lines::beamTowards(p_sensor, scan);
     const gaze::SensorField& field = rig_.gaze().config().field;
     const double limit = geometry::radians(90.0);
-    if (!field.holds(p_mount, std::clamp(field.aimAt(p_mount), -limit, limit))) return;
+    // Throughout the sweep: at its start, and now that it has ended.
+    const Eigen::Vector2d p_mount_end =
+        (drive_.simulation().robot().T_map_base() * rig_.T_base_mount()).inverse() * kFixated;
+    for (const Eigen::Vector2d& place : {p_mount, p_mount_end}) {
+      if (!field.holds(place, std::clamp(field.aimAt(place), -limit, limit))) return;
+    }
     result_.in_reach += 1.0;
     if (seen.in_field && is_found_) result_.in_view += 1.0;
   }
@@ -111,7 +147,21 @@ class FixationRun {
   GazeRig rig_;
   FixationResult result_;
   bool is_found_ = false;
+  int hidden_scans_ = 0;
+  std::optional<double> free_since_;  // nothing nearer since [s]
 };
+
+inline void reacquisition(std::uint64_t seeds) {
+  std::vector<double> times;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const auto result = FixationRun({"occluded", 1.0, 0.0, true}, seed).result();
+    times.insert(times.end(), result.reacquired.begin(), result.reacquired.end());
+  }
+  std::printf("# gaze.fixation: found again %zu times in %zu runs\n", times.size(),
+              static_cast<std::size_t>(seeds));
+  print("gaze.fixation.reacquire_s", median(times), "s");
+  print("gaze.fixation.reacquire_p95_s", quantile(times, 0.95), "s");
+}
 
 inline void fixation(std::uint64_t seeds) {
   FixationResult all;
@@ -130,6 +180,7 @@ inline void fixation(std::uint64_t seeds) {
     all.in_view += sum.in_view;
   }
   print("gaze.fixation.in_view", 100.0 * all.in_view / all.in_reach, "%");
+  reacquisition(seeds);
 }
 
 }  // namespace sightline::bench
