@@ -10,6 +10,7 @@ RecordedEstimates::RecordedEstimates(const pipeline::EstimatorsConfig& config,
   const std::filesystem::path path(folder);
   bag_.open((path / "out.bag").string(), rosbag::bagmode::Write);
   if (set.lines) lines_.emplace(output_, config.input);
+  if (set.features) features_.emplace(output_, config.frames);
   if (set.rooms) {
     rooms_.emplace(output_, RoomOutputConfig{}, config.frames, *config.rooms,
                    estimators_.rooms()->map());
@@ -25,6 +26,7 @@ void RecordedEstimates::take(pipeline::LocatedScan located, const ros::Time& now
   now_ = now;
   const pipeline::Estimates estimates = estimators_.take(std::move(located));
   if (lines_) lines_->write(estimates);
+  if (features_) features_->write(estimates);
   if (rooms_) rooms_->write(estimates, /*has_pose=*/true);
   if (odometry_) odometry_->write(estimates);
   if (rooms_ && estimates.rooms) {
@@ -60,6 +62,7 @@ std::vector<std::string> RecordedEstimates::summary() const {
     for (auto& line : output->summary()) lines.push_back(std::move(line));
   };
   append(lines_);
+  append(features_);
   append(rooms_);
   append(odometry_);
   return lines;

@@ -8,6 +8,7 @@
 #include "nodes/odometry_controls.h"
 #include "nodes/room_controls.h"
 #include "sightline/bridge/bag_feed.h"
+#include "sightline/bridge/feature_output.h"
 #include "sightline/bridge/line_output.h"
 #include "sightline/bridge/live_feed.h"
 #include "sightline/bridge/node_diagnostics.h"
@@ -24,11 +25,12 @@ class EstimatorsNode {
  public:
   EstimatorsNode(ros::NodeHandle node, ros::NodeHandle private_node,
                  const pipeline::EstimatorsConfig& config)
-      : set_{true, config.rooms.has_value(), config.odometry.has_value()},
+      : set_{true, config.rooms.has_value(), config.odometry.has_value(), true},
         estimators_(config, set_),
         diagnostics_(node, private_node),
         output_(node),
         lines_(output_, config.input),
+        features_(output_, config.frames),
         line_controls_(ros::NodeHandle(node, "line_extractor"), config.lines, estimators_) {
     broadcaster_.sendTransform(bridge::mountingTransforms(config).transforms);
     if (set_.rooms) addRooms(node, config);
@@ -53,6 +55,7 @@ class EstimatorsNode {
   void take(pipeline::LocatedScan located) {
     const auto estimates = estimators_.take(std::move(located));
     lines_.write(estimates);
+    features_.write(estimates);
     if (odometry_) {
       odometry_->write(estimates);
       odometry_controls_->note(estimates);
@@ -66,6 +69,7 @@ class EstimatorsNode {
   bridge::Output output_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   bridge::LineOutput lines_;
+  bridge::FeatureOutput features_;
   LineControls line_controls_;
   std::optional<bridge::RoomOutput> rooms_;
   std::optional<RoomControls> room_controls_;

@@ -5,6 +5,7 @@
 
 #include "nodes/line_controls.h"
 #include "nodes/line_extractor_config.h"
+#include "sightline/bridge/feature_output.h"
 #include "sightline/bridge/line_output.h"
 #include "sightline/bridge/live_feed.h"
 #include "sightline/bridge/node_diagnostics.h"
@@ -19,6 +20,7 @@ pipeline::EstimatorsConfig estimatorsOf(const LineExtractorNodeConfig& config) {
   result.input = config.topics.input;
   result.frames = config.topics.frames;
   result.lines = config.lines;
+  result.features = config.features;
   return result;
 }
 
@@ -40,26 +42,32 @@ class LineExtractorNode {
  public:
   LineExtractorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : config_(readLineExtractorConfig(private_node)),
-        estimators_(estimatorsOf(config_), kLines),
+        estimators_(estimatorsOf(config_), {true, false, false, !config_.fixed_frame.empty()}),
         diagnostics_(node, private_node),
         output_(node),
         lines_(output_, config_.topics.input, config_.markers),
         controls_(private_node, config_.lines, estimators_),
         feed_(node, config_.topics.input, config_.topics.frames, needsOf(config_),
-              diagnostics_.updater(), [this](pipeline::LocatedScan located) {
-                lines_.write(estimators_.take(std::move(located)));
-              }) {
-    if (!config_.fixed_frame.empty()) motion_.emplace(feed_, diagnostics_.updater());
+              diagnostics_.updater(),
+              [this](pipeline::LocatedScan located) { take(std::move(located)); }) {
+    if (config_.fixed_frame.empty()) return;
+    motion_.emplace(feed_, diagnostics_.updater());
+    features_.emplace(output_, config_.topics.frames);
   }
 
  private:
-  static constexpr pipeline::EstimatorSet kLines{true, false, false};
+  void take(pipeline::LocatedScan located) {
+    const auto estimates = estimators_.take(std::move(located));
+    lines_.write(estimates);
+    if (features_) features_->write(estimates);
+  }
 
   LineExtractorNodeConfig config_;
   pipeline::Estimators estimators_;
   bridge::NodeDiagnostics diagnostics_;
   bridge::Output output_;
   bridge::LineOutput lines_;
+  std::optional<bridge::FeatureOutput> features_;
   LineControls controls_;
   bridge::LiveFeed feed_;
   std::optional<MotionDiagnostics> motion_;

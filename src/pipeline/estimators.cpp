@@ -38,6 +38,7 @@ Estimators::Estimators(const EstimatorsConfig& config, const EstimatorSet& set)
     const auto floor = config_.input.leans ? std::make_optional(config_.input.floor) : std::nullopt;
     odometry_.emplace(config_.odometry.value_or(ScanOdometryConfig()), floor);
   }
+  if (set.features) features_.emplace(config_.features);
 }
 
 void Estimators::configureLines(const LinesConfig& config) {
@@ -50,6 +51,7 @@ Estimates Estimators::take(LocatedScan located) {
   if (located.clock_restarted) {
     rooms_restart_ = true;
     if (odometry_) odometry_->restartClock();
+    if (features_) features_->restart();
   }
   Estimates estimates;
   estimates.located = std::move(located);
@@ -57,6 +59,9 @@ Estimates Estimators::take(LocatedScan located) {
   if (odometry_) reckon(estimates);
   if (!estimates.located.motion_known) addMotion(estimates);
   if (set_.lines) extract(estimates);
+  if (features_ && estimates.lines) {
+    estimates.features = features_->take(estimates.located, estimates.odometry, *estimates.lines);
+  }
   if (rooms_) track(estimates);
   return estimates;
 }

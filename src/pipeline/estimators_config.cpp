@@ -63,6 +63,7 @@ void EstimatorsConfig::visit(config::FieldVisitor& visitor) {
   visitor.entries("mountings", mountings,
                   "pose of a scanner's frame on the base, where no transform tells");
   visitor.group("lines", lines);
+  visitor.group("features", features);
   visitor.group("rooms", rooms);
   visitor.path("carrier", carrier,
                "path of a file with settings that depend on who carries the scanner, of which "

@@ -1,11 +1,11 @@
 // Prints docs/Parameters.md from the field lists of the configuration structs.
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "nodes/gaze_config.h"
 #include "nodes/laser_odometry_config.h"
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
@@ -52,7 +52,7 @@ Section sectionOf(const std::string& title, const std::string& text) {
   return {title, text, sightline::config::describe(defaults)};
 }
 
-std::vector<Section> nodeSections() {
+std::vector<Section> estimatorSections() {
   namespace nodes = sightline::nodes;
   return {
       sectionOf<nodes::LineExtractorNodeConfig>(
@@ -67,6 +67,13 @@ std::vector<Section> nodeSections() {
               "Parameters of the node.",
               {{"config", "path", "(empty)", "-", "any",
                 "the file of estimators that `offline` takes, too; must be set"}}},
+      sectionOf<nodes::GazeNodeConfig>("gaze", "Parameters of the node."),
+  };
+}
+
+std::vector<Section> sensorSections() {
+  namespace nodes = sightline::nodes;
+  return {
       sectionOf<nodes::SyncScanDriverConfig>("sync_scan_driver", "Parameters of the node."),
       sectionOf<nodes::SimSensorConfig>("sim_sensor", "Parameters of the node."),
       sectionOf<nodes::SimRobotConfig>("sim_sensor: robots",
@@ -108,8 +115,10 @@ std::vector<Section> fileSections() {
 }
 
 std::vector<Section> allSections() {
-  std::vector<Section> sections = nodeSections();
-  for (Section& section : fileSections()) sections.push_back(std::move(section));
+  std::vector<Section> sections;
+  for (const auto& part : {estimatorSections(), sensorSections(), fileSections()}) {
+    sections.insert(sections.end(), part.begin(), part.end());
+  }
   return sections;
 }
 

@@ -44,13 +44,14 @@ pipeline::EstimatorSet nodesOf(const std::string& list) {
       throw tools::UsageError("--nodes: no node " + node);
     }
   }
+  set.features = set.lines;
   if (!set.lines && !set.rooms && !set.odometry) throw tools::UsageError("--nodes: none given");
   return set;
 }
 
 pipeline::EstimatorSet nodesOf(const Job& job, const pipeline::EstimatorsConfig& config) {
   const pipeline::EstimatorSet by_settings{true, config.rooms.has_value(),
-                                           config.odometry.has_value()};
+                                           config.odometry.has_value(), true};
   const pipeline::EstimatorSet set = job.nodes ? nodesOf(*job.nodes) : by_settings;
   if (set.rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
   if (set.rooms && !config.rooms->initial_pose) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sightline/bridge/feature_output.h"
 #include "sightline/bridge/line_output.h"
 #include "sightline/bridge/odometry_output.h"
 #include "sightline/bridge/room_output.h"
@@ -39,6 +40,7 @@ class RecordedEstimates {
   ros::Time now_;
   Output output_{bag_, now_};
   std::optional<LineOutput> lines_;
+  std::optional<FeatureOutput> features_;
   std::optional<RoomOutput> rooms_;
   std::optional<OdometryOutput> odometry_;
   std::optional<logs::TrajectoryWriter> rooms_trajectory_;

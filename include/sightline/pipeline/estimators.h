@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "sightline/geometry/arc.h"
+#include "sightline/geometry/feature.h"
 #include "sightline/geometry/line_segment.h"
 #include "sightline/lines/line_extractor.h"
 #include "sightline/lines/plain_extractor.h"
 #include "sightline/pipeline/estimators_config.h"
 #include "sightline/pipeline/located_scan.h"
+#include "sightline/pipeline/scan_features.h"
 #include "sightline/tracking/room_tracker.h"
 
 namespace sightline::pipeline {
@@ -20,12 +22,7 @@ struct EstimatorSet {
   bool lines = false;
   bool rooms = false;
   bool odometry = false;
-};
-
-/// Lines of one scan, in the scan's frame, level and the right way up.
-struct Lines {
-  std::vector<geometry::LineSegment> segments;
-  std::vector<geometry::Arc> arcs;
+  bool features = false;  ///< needs lines
 };
 
 /// Results of the estimators for one scan; nothing of those that do not run, or refused it.
@@ -34,13 +31,16 @@ struct Lines {
 struct Estimates {
   LocatedScan located;  ///< as the estimators saw it: without floor, motion filled in
   std::optional<Lines> lines;
+  /// In the frame of the odometry, as of this scan; nothing where the motion of the base is
+  /// unknown.
+  std::optional<std::vector<geometry::Feature>> features;
   std::optional<tracking::TrackerUpdate> rooms;
   std::optional<dead_reckoning::DeadReckoningUpdate> odometry;
 };
 
 /// Runs the estimators on located scans and hands values from one to another: the floor that the
-/// dead reckoner finds and the motion within the sweep that it knows, to lines and tracker. No
-/// estimator knows another. Not thread-safe.
+/// dead reckoner finds and the motion within the sweep that it knows, to lines and tracker; lines
+/// to the features. No estimator knows another. Not thread-safe.
 class Estimators {
  public:
   /// Throws config::Error.
@@ -74,6 +74,7 @@ class Estimators {
   std::vector<Extractor> extractors_;  // one a scanner, whose geometry it keeps
   std::optional<tracking::RoomTracker> rooms_;
   std::optional<ScanOdometry> odometry_;
+  std::optional<ScanFeatures> features_;
   std::optional<geometry::Pose2> T_odom_base_;  // by wheels, at the last scan
   bool rooms_restart_ = false;                  // the clock was set since that scan
   bool is_mounting_known_ = false;              // of the scans that the odometry took

@@ -8,6 +8,7 @@
 
 #include "sightline/config/fields.h"
 #include "sightline/geometry/pose2.h"
+#include "sightline/lines/feature_tracker_config.h"
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/motion/floor.h"
 #include "sightline/pipeline/feed_config.h"
@@ -70,6 +71,7 @@ struct InputConfig {
 /// mountings: {laser: [0.2, 0.0, 0.0]}    # x, y, yaw on the base [m, m, rad], by frame, where
 ///                                        # no transform tells
 /// lines: {min_length: 0.5}               # LinesConfig
+/// features: {absence: 2.0}               # lines::FeatureTrackerConfig
 /// rooms:                                 # RoomsConfig; left out: no room tracker
 ///   map: rooms.yaml                      # relative to this file
 ///   initial_pose: [0.0, 0.0, 0.0]        # m, m, rad
@@ -83,6 +85,7 @@ struct EstimatorsConfig {
   Frames frames;
   std::map<std::string, geometry::Pose2> mountings;  ///< T_base_sensor by frame
   LinesConfig lines;
+  lines::FeatureTrackerConfig features;
   std::optional<RoomsConfig> rooms;
   std::optional<ScanOdometryConfig> odometry;
   std::string carrier;  ///< path of a file with settings that depend on who carries the scanner

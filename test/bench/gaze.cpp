@@ -1,0 +1,27 @@
+// Figures of features over scans and of the gaze. All is simulated: the sensor of the paper, its
+// head angles told in steps of 0.36° and with noise of half a step, and a robot whose wheels err as
+// jensfelt's do, which the estimators are told.
+//
+// gaze.head_<rate>_<sense>: a wall while the head turns. gaze.fixation: in_view, of the scans
+// during which a head angle had the corner in field and reach; reacquire_s, from the first scan in
+// which nothing nearer hides the corner. gaze.features: a scanner of 270° and 10 Hz in a room with
+// boxes; nees and in_gate of those called fixed, seen or not; id_changes a minute that a feature
+// stays in view; recall and precision of what is called fixed, of features watched for a second.
+// gaze.triangulation: the tracker on this sensor, mean over the scans of the square root of the
+// trace of x and y; against the better of a fixed head and a sweep.
+#include "bench/gaze/features.h"
+#include "bench/gaze/fixation.h"
+#include "bench/gaze/head.h"
+#include "bench/gaze/triangulation.h"
+
+int main() {
+  using namespace sightline::bench;
+  constexpr std::uint64_t kSeeds = 20;
+  turningHead(20 * kSeeds);
+  fixation(kSeeds);
+  features({"alone"}, kSeeds);
+  features({"among_movers", true, true}, kSeeds);
+  features({"unmeasured_wheels", true, true, true}, kSeeds);
+  triangulation(kSeeds);
+  return 0;
+}

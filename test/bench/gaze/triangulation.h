@@ -1,0 +1,117 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+
+#include "bench/figures.h"
+#include "bench/gaze/features.h"
+#include "bench/gaze/rig.h"
+
+namespace sightline::bench {
+
+struct GazePlace {
+  const char* name;
+  geometry::Pose2 start;
+  const char* path;
+  double seconds;
+};
+inline const GazePlace kGazePlaces[] = {
+    {"living_room",
+     {-3.2, 1.4, 0.0},
+     "{speed: 0.3, turn_rate: 0.8, tolerance: 0.2, repeat: true, waypoints: [[0.3, 1.13], "
+     "[1.2, -0.5], [3.2, -1.2], [1.2, -1.2], [0, 0], [-1.5, 1.2], [-3.2, 1.4]]}",
+     100.0},
+    {"corridor",
+     {20.0, 0.0, 0.0},
+     "{speed: 0.4, turn_rate: 0.8, tolerance: 0.2, repeat: true, waypoints: [[26.3, 0.0], "
+     "[20.0, 0.1]]}",
+     60.0},
+};
+
+/// Certainty that a tracker has, and its error.
+struct PoseSpread {
+  double sigmas = 0.0;  // sum over scans of the square root of the trace of x and y [m]
+  double errors = 0.0;  // sum of the distances from the truth [m]
+  double scans = 0.0;
+  double sigma() const { return sigmas / scans; }
+  double error() const { return errors / scans; }
+};
+
+struct GazeWay {
+  const char* name;
+  gaze::GazeMode mode;
+  double angle = 0.0;  // of a head that holds [rad]
+};
+inline const GazeWay kGazeWays[] = {{"ahead", gaze::GazeMode::kHold, 0.0},
+                                    {"left", gaze::GazeMode::kHold, 0.5 * geometry::kPi},
+                                    {"right", gaze::GazeMode::kHold, -0.5 * geometry::kPi},
+                                    {"sweep", gaze::GazeMode::kSweep},
+                                    {"inform", gaze::GazeMode::kInform}};
+
+inline pipeline::EstimatorsConfig trackingConfig(const GazePlace& place) {
+  pipeline::EstimatorsConfig config;
+  const motion::OdometryNoise wheels = simulation::RobotConfig{}.odometry;
+  config.rooms.emplace();
+  config.rooms->map = std::string(SIGHTLINE_SOURCE_DIR "/config/rooms/") + place.name + ".yaml";
+  config.rooms->initial_pose = place.start;
+  config.rooms->initial_sigma = {0.05, 0.02};
+  config.rooms->tracker.odometry = wheels;
+  config.input.feed.sweep_noise = wheels;
+  config.input.feed.head_sigma = geometry::radians(0.36) * std::sqrt(0.25 + 1.0 / 12.0);
+  return config;
+}
+
+inline PoseSpread spreadOf(const GazePlace& place, const GazeWay& way, std::uint64_t seed) {
+  const auto world = world::World::readFile(std::string(SIGHTLINE_SOURCE_DIR "/config/worlds/") +
+                                            place.name + ".yaml");
+  const auto config = trackingConfig(place);
+  Drive drive(world, simulation::RobotConfig{}, place.start, seed, config,
+              {false, true, false, false});
+  gaze::GazeConfig gaze;
+  gaze.mode = way.mode;
+  gaze.odometry = config.rooms->tracker.odometry;
+  GazeRig rig(drive, gaze, seed);
+  rig.gaze().setMap(world::RoomMap::readFile(config.rooms->map));
+  drive.carrier().follow(pathOf(place.path));
+  if (way.mode == gaze::GazeMode::kHold) {
+    drive.carrier().commandHead(0, {motion::HeadCommand::Mode::kPosition, way.angle, 0.0});
+  }
+  PoseSpread spread;
+  rig.run(place.seconds, [&](const pipeline::Estimates& estimates, const geometry::Pose2& truth) {
+    if (!estimates.rooms) return;
+    spread.sigmas += std::sqrt(estimates.rooms->pose.covariance.topLeftCorner<2, 2>().trace());
+    spread.errors += (estimates.rooms->pose.mean.translation() - truth.translation()).norm();
+    spread.scans += 1.0;
+  });
+  return spread;
+}
+
+inline void triangulation(std::uint64_t seeds) {
+  for (const GazePlace& place : kGazePlaces) {
+    double best_sigma = 1e9, best_error = 1e9;
+    for (const GazeWay& way : kGazeWays) {
+      PoseSpread sum;
+      for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const PoseSpread spread = spreadOf(place, way, seed);
+        sum.sigmas += spread.sigmas;
+        sum.errors += spread.errors;
+        sum.scans += spread.scans;
+      }
+      const std::string name =
+          std::string("gaze.triangulation.") + place.name + "." + way.name + ".";
+      print(name + "sigma", sum.sigma(), "m");
+      print(name + "error", sum.error(), "m");
+      if (way.mode != gaze::GazeMode::kInform) {
+        best_sigma = std::min(best_sigma, sum.sigma());
+        best_error = std::min(best_error, sum.error());
+        continue;
+      }
+      print(std::string("gaze.triangulation.") + place.name + ".sigma_ratio",
+            sum.sigma() / best_sigma, "1");
+      print(std::string("gaze.triangulation.") + place.name + ".error_ratio",
+            sum.error() / best_error, "1");
+    }
+  }
+}
+
+}  // namespace sightline::bench
