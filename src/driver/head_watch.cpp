@@ -14,10 +14,10 @@ constexpr std::int64_t kStandsFor = 1'000'000'000;  // [ns]
 
 }  // namespace
 
+// Commands that come again and again give a stuck head no more time.
 void HeadWatch::command(const motion::HeadCommand& command, std::int64_t now) {
+  if (!shallMove()) moved_ = now;
   command_ = command;
-  moved_ = now;
-  fault_.clear();
 }
 
 // A head that turns at a rate halts at its limits.

@@ -66,6 +66,15 @@ TEST(HeadWatch, StuckHeadIsNamed) {
   EXPECT_EQ(watch.fault(), "");
 }
 
+TEST(HeadWatch, NewCommandsGiveAStuckHeadNoMoreTime) {
+  HeadWatch watch;
+  for (int ms = 0; ms < 1200; ms += 100) {
+    watch.command({CommandMode::kPosition, 0.3 + 1e-4 * ms, 0.0}, ms * kMillisecond);
+    watch.observe({0.0}, ms * kMillisecond);
+  }
+  EXPECT_NE(watch.fault(), "");
+}
+
 TEST(HeadWatch, HeadThatArrivedOrHaltedAtALimitIsWell) {
   HeadWatch watch;
   watch.command(kAhead, 0);
