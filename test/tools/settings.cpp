@@ -1,6 +1,7 @@
 // Every setting of every node.
 #include <gmock/gmock.h>
 
+#include "nodes/gaze_config.h"
 #include "nodes/laser_odometry_config.h"
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
@@ -13,9 +14,10 @@ namespace sightline::test {
 namespace {
 
 using OfTheNodes =
-    testing::Types<nodes::LaserOdometryNodeConfig, nodes::LineExtractorNodeConfig,
-                   nodes::RoomTrackerNodeConfig, nodes::SimSensorConfig, nodes::SimRobotConfig,
-                   nodes::SimMoverConfig, nodes::SimScannerConfig, nodes::SimActiveSensorConfig,
+    testing::Types<nodes::GazeNodeConfig, nodes::LaserOdometryNodeConfig,
+                   nodes::LineExtractorNodeConfig, nodes::RoomTrackerNodeConfig,
+                   nodes::SimSensorConfig, nodes::SimRobotConfig, nodes::SimMoverConfig,
+                   nodes::SimScannerConfig, nodes::SimActiveSensorConfig,
                    nodes::SyncScanDriverConfig, bridge::CarmenBagOptions>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Nodes, EverySetting, OfTheNodes);
 

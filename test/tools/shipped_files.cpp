@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nodes/gaze_config.h"
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
 #include "sightline/pipeline/estimators_config.h"
@@ -88,6 +89,7 @@ TEST(ShippedFiles, Replay) {
 
 TEST(ShippedFiles, Parameters) {
   expectParameters<nodes::LineExtractorNodeConfig>("line_extractor.yaml");
+  expectParameters<nodes::GazeNodeConfig>("gaze.yaml");
   expectParameters<nodes::RoomTrackerNodeConfig>("room_tracker.yaml");
 }
 
@@ -101,6 +103,7 @@ TEST(ShippedFiles, EveryConfigurationHasARoomAbove) {
                                          "offline",
                                          "replay",
                                          "carriers",
+                                         "gaze.yaml",
                                          "line_extractor.yaml",
                                          "room_tracker.yaml"};
     EXPECT_NE(std::find(known.begin(), known.end(), folder), known.end())
