@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -8,12 +9,15 @@
 #include "sightline/geometry/pose2.h"
 #include "sightline/motion/odometry_noise.h"
 #include "sightline/tracking/sweep_error.h"
+#include "sightline/tracking/wall_error.h"
 
 namespace sightline::tracking {
 
 /// Kalman filter over (x, y, θ, s): the robot's pose in the map and the scale of its odometry, true
 /// length over measured (jensfelt section 4.1; composed in the body frame with both Jacobians, the
-/// scale as a state). A value: copies are independent.
+/// scale as a state). Errors of the walls of the map are constants, which no number of scans
+/// averages out: they are considered with their prior, and their covariance with the states is kept
+/// (Schmidt-Kalman), for the last 32 of them. A value: copies are independent.
 class PoseFilter {
  public:
   /// Number of states: x, y, θ and s, then the error of the sweep's motion.
@@ -31,15 +35,23 @@ class PoseFilter {
     Eigen::Matrix2d covariance;  ///< S, of the value
     Eigen::Matrix<double, 2, kStates> jacobian;  ///< of the prediction by the state
     double nis = 0.0;
+    WallError wall;
+    Eigen::Matrix2d wall_jacobian = Eigen::Matrix2d::Zero();  ///< of the prediction by its error
+    /// Covariance of the states with the value's prediction.
+    Eigen::Matrix<double, kStates, 2> covariance_with_states;
   };
-  /// `motion_jacobian` is of the measured line.
+  /// `motion_jacobian` is of the measured line. A wall that is exact has a WallError of zero
+  /// covariance.
   Innovation innovation(const geometry::PolarLine& measured_base,
                         const geometry::PolarLine& wall_map,
-                        const LineBySweepError& motion_jacobian) const;
+                        const LineBySweepError& motion_jacobian, const WallError& wall = {}) const;
   /// Takes the innovation in (jensfelt eq. 9).
   void update(const Innovation& innovation);
   /// Adds an independent error of these standard deviations [m, rad].
   void inflate(double position_sigma, double heading_sigma);
+
+  /// The same with no more uncertainty than these standard deviations [m, rad].
+  PoseFilter limited(double position_sigma, double heading_sigma) const;
 
   geometry::UncertainPose2 pose() const;
   double scale() const { return scale_; }
@@ -48,6 +60,15 @@ class PoseFilter {
   Eigen::Matrix4d covariance() const { return covariance_.topLeftCorner<4, 4>(); }
 
  private:
+  using WithWall = Eigen::Matrix<double, kStates, 2>;
+  struct WallCovariance {
+    world::WallIndex wall;
+    WithWall with_states;
+  };
+
+  const WallCovariance* find(const world::WallIndex& wall) const;
+  void updateWalls(const Innovation& innovation, const WithWall& gain);
+
   geometry::Pose2 pose_;
   double scale_;
   // The error of the sweep's motion as estimated, and the variance of its heading at the last beam
@@ -56,6 +77,7 @@ class PoseFilter {
   double sweep_heading_variance_ = 0.0;
   Eigen::Matrix<double, kStates, kStates> covariance_ =
       Eigen::Matrix<double, kStates, kStates>::Zero();
+  std::vector<WallCovariance> walls_;  // in the order in which they were first used
 };
 
 }  // namespace sightline::tracking
