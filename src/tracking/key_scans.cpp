@@ -24,10 +24,13 @@ constexpr struct {
 
 }  // namespace
 
-bool KeyScans::isNew(const TrackerInput& input) const {
-  if (scans_.empty()) return true;
-  const Pose2 moved = geometry::between(scans_.back().T_odom_base, input.T_odom_base);
+bool isAnotherView(const Pose2& T_odom_base, const Pose2& T_odom_other) {
+  const Pose2 moved = geometry::between(T_odom_base, T_odom_other);
   return moved.translation().norm() >= kKeys.distance || std::abs(moved.theta()) >= kKeys.turn;
+}
+
+bool KeyScans::isNew(const TrackerInput& input) const {
+  return scans_.empty() || isAnotherView(scans_.back().T_odom_base, input.T_odom_base);
 }
 
 void KeyScans::add(const TrackerInput& input) {

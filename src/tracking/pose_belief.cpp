@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sightline/tracking/key_scans.h"
+
 namespace sightline::tracking {
 
 namespace {
 
 constexpr struct {
-  double most = 7.0;          // log odds, either way: what has not been thought of stays possible
-  double most_by_scan = 4.0;  // scans that follow each other see the same
-  double outside = -1.0;      // of a scan taken outside every room
-  // A scan that meets less than this share of what is usual is a surprise; what is usual follows
-  // slowly.
-  double surprise = 0.6;
-  double learning = 0.1;
+  double most = 7.0;  // log odds, either way: what has not been thought of stays possible
+  // By a view: a door that is drawn as wall, or furniture in line with walls, is one error of the
+  // map, however many beams meet it.
+  double most_for = 4.0;
+  double most_against = -14.0;
+  double outside = -1.0;  // of a view from outside every room
   double most_through = 0.04;
   double least_hits = 0.3;
 } kBelief;
@@ -22,25 +23,18 @@ constexpr struct {
 }  // namespace
 
 void PoseBelief::take(const ScanAgreement& agreement, const scan::ScanGeometry& geometry,
-                      bool is_outside) {
-  last_ = std::clamp(logOdds(agreement, geometry), -kBelief.most_by_scan, kBelief.most_by_scan);
+                      bool is_outside, const geometry::Pose2& T_odom_base) {
+  if (!view_ || isAnotherView(*view_, T_odom_base)) {
+    before_ = std::clamp(before_ + last_, -kBelief.most, kBelief.most);
+    view_ = T_odom_base;
+  }
+  last_ = std::clamp(logOdds(agreement, geometry), kBelief.most_against, kBelief.most_for);
   if (is_outside) last_ = std::min(last_, kBelief.outside);
-  log_odds_ = std::clamp(log_odds_ + last_, -kBelief.most, kBelief.most);
-  compareHits(agreement);
-}
-
-void PoseBelief::compareHits(const ScanAgreement& agreement) {
-  const auto judged = static_cast<double>(agreement.judged());
-  is_surprised_ = false;
-  if (judged < 20.0) return;
-  const double hits = static_cast<double>(agreement.on_wall) / judged;
-  is_surprised_ = usual_hits_ && hits < kBelief.surprise * *usual_hits_;
-  const double usual = usual_hits_.value_or(hits);
-  usual_hits_ = usual + kBelief.learning * (hits - usual);
 }
 
 double PoseBelief::probability() const {
-  return 1.0 / (1.0 + std::exp(-log_odds_));
+  const double log_odds = std::clamp(before_ + last_, -kBelief.most, kBelief.most);
+  return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
 bool isSound(const ScanAgreement& agreement) {

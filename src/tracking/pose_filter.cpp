@@ -14,7 +14,7 @@ using geometry::Pose2;
 
 namespace {
 
-// Walls whose covariance with the pose is kept: more than are seen from anywhere.
+// Walls whose share in the error of the pose is kept apart: more than are seen from anywhere.
 constexpr std::size_t kMostWalls = 32;
 
 bool areSame(const world::WallIndex& a, const world::WallIndex& b) {
@@ -34,7 +34,7 @@ void PoseFilter::beginSweep(const SweepNoise& motion_noise) {
   covariance_.rightCols<kErrors>().setZero();
   covariance_.bottomRows<kErrors>().setZero();
   covariance_.bottomRightCorner<kErrors, kErrors>() = motion_noise.atKnots();
-  for (WallCovariance& wall : walls_) wall.with_states.bottomRows<kErrors>().setZero();
+  for (WallShare& wall : walls_) wall.of_states.bottomRows<kErrors>().setZero();
   sweep_heading_variance_ = motion_noise.atEnd()(2, 2);
   motion_error_.setZero();
 }
@@ -56,8 +56,8 @@ void PoseFilter::predict(const motion::OdometryNoise& odometry, const Pose2& ste
   if (holds_sweep) F.topRightCorner<3, 3>() = -G * motion::coordinatesByStartTwist(moved);
   const Eigen::Matrix4d predicted = F * covariance_ * F.transpose();
   covariance_.topLeftCorner<4, 4>() = predicted;
-  for (WallCovariance& wall : walls_) {
-    wall.with_states.topRows<4>() = (F * wall.with_states).eval();
+  for (WallShare& wall : walls_) {
+    wall.of_states.topRows<4>() = (F * wall.of_states).eval();
   }
   covariance_.topLeftCorner<3, 3>() +=
       (holds_sweep ? 1.0 - known : 1.0) * G * noise * G.transpose();
@@ -79,27 +79,26 @@ PoseFilter::Innovation PoseFilter::innovation(const PolarLine& measured_base,
       geometry::transformJacobianLine(pose_.inverse(), wall_map) * wall.line_jacobian;
   result.value = line.value - result.jacobian.rightCols<3 * kKnots>() * motion_error_;
   result.covariance_with_states = covariance_ * result.jacobian.transpose();
-  result.covariance =
-      line.noise + result.wall_jacobian * wall.covariance * result.wall_jacobian.transpose();
-  if (const WallCovariance* known = find(wall.wall)) {
-    const WithWall by_wall = known->with_states * result.wall_jacobian.transpose();
-    result.covariance += (result.jacobian * by_wall).transpose();
-    result.covariance_with_states += by_wall;
-  }
-  result.covariance += result.jacobian * result.covariance_with_states;
+  result.covariance = line.noise + result.jacobian * result.covariance_with_states;
   result.nis = result.value.dot(result.covariance.inverse() * result.value);
   return result;
 }
 
-const PoseFilter::WallCovariance* PoseFilter::find(const world::WallIndex& wall) const {
-  const auto found = std::find_if(walls_.begin(), walls_.end(), [&](const WallCovariance& known) {
-    return areSame(known.wall, wall);
+PoseFilter::WallShare& PoseFilter::shareOf(const WallError& wall) {
+  const auto found = std::find_if(walls_.begin(), walls_.end(), [&](const WallShare& known) {
+    return areSame(known.wall, wall.wall);
   });
-  return found == walls_.end() ? nullptr : &*found;
+  if (found != walls_.end()) return *found;
+  if (walls_.size() >= kMostWalls) {
+    covariance_ += walls_.front().covariance();
+    walls_.erase(walls_.begin());
+  }
+  walls_.push_back({wall.wall, wall.covariance, ByWall::Zero()});
+  return walls_.back();
 }
 
 void PoseFilter::update(const Innovation& innovation) {
-  const WithWall gain = innovation.covariance_with_states * innovation.covariance.inverse();
+  const ByWall gain = innovation.covariance_with_states * innovation.covariance.inverse();
   const Eigen::Matrix<double, kStates, 1> correction = gain * innovation.value;
   pose_ = Pose2(pose_.coordinates() + correction.head<3>());
   scale_ += correction[3];
@@ -109,18 +108,13 @@ void PoseFilter::update(const Innovation& innovation) {
   if (!innovation.wall.covariance.isZero(0.0)) updateWalls(innovation, gain);
 }
 
-// The errors of walls keep their prior; only what they share with the states changes.
-void PoseFilter::updateWalls(const Innovation& innovation, const WithWall& gain) {
-  if (!find(innovation.wall.wall)) {
-    if (walls_.size() >= kMostWalls) walls_.erase(walls_.begin());
-    walls_.push_back({innovation.wall.wall, WithWall::Zero()});
-  }
-  for (WallCovariance& known : walls_) {
-    Eigen::Matrix2d with_value = innovation.jacobian * known.with_states;
-    if (areSame(known.wall, innovation.wall.wall)) {
-      with_value += innovation.wall_jacobian * innovation.wall.covariance;
-    }
-    known.with_states -= gain * with_value;
+// What the error of each wall has done to the states, now that this wall has corrected them.
+void PoseFilter::updateWalls(const Innovation& innovation, const ByWall& gain) {
+  const WallShare& share = shareOf(innovation.wall);
+  for (WallShare& known : walls_) {
+    Eigen::Matrix2d by_wall = innovation.jacobian * known.of_states;
+    if (&known == &share) by_wall += innovation.wall_jacobian;
+    known.of_states -= gain * by_wall;
   }
 }
 
@@ -139,14 +133,18 @@ PoseFilter PoseFilter::limited(double position_sigma, double heading_sigma) cons
     if (sigma > limits[i]) factors[i] = limits[i] / sigma;
   }
   result.covariance_ = factors.asDiagonal() * covariance_ * factors.asDiagonal();
-  for (WallCovariance& wall : result.walls_) {
-    wall.with_states = factors.asDiagonal() * wall.with_states;
-  }
+  for (WallShare& wall : result.walls_) wall.of_states = factors.asDiagonal() * wall.of_states;
   return result;
 }
 
-geometry::UncertainPose2 PoseFilter::pose() const {
+geometry::UncertainPose2 PoseFilter::assumedPose() const {
   return {pose_, covariance_.topLeftCorner<3, 3>()};
+}
+
+geometry::UncertainPose2 PoseFilter::pose() const {
+  geometry::UncertainPose2 pose = assumedPose();
+  for (const WallShare& wall : walls_) pose.covariance += wall.covariance().topLeftCorner<3, 3>();
+  return pose;
 }
 
 }  // namespace sightline::tracking

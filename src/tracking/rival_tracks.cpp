@@ -24,19 +24,14 @@ constexpr struct {
   double wrong_start = -4.6;
   double pushed = -6.0;
   double carried = -9.2;
-  double push_reach = 0.75;   // [m]
-  double slip = 0.3;          // [m]
-  double slip_heading = 0.2;  // [rad]
-  double claim = 9.2;         // odds of 10⁴
-  double dropped = -14.0;
-  std::size_t most = 40;
-  double same_position = 0.1;  // of two tracks that have become one [m, rad]
-  double same_heading = 0.05;
+  double push_reach = 0.75;     // [m]
+  double slip = 0.3;            // [m]
+  double slip_heading = 0.2;    // [rad]
   double found_position = 0.1;  // sigma of a pose that was found [m, rad]
   double found_heading = 0.03;
-  int search_again = 16;   // scans at most, where the robot stands
-  double as_given = 14.2;  // of chi-square with 3 degrees of freedom, 99.7 %
-  double sure = 0.9;
+  int search_again = 16;       // scans at most, where the robot stands
+  double as_given = 14.2;      // of chi-square with 3 degrees of freedom, 99.7 %
+  double beyond_doubt = 0.99;  // several views that speak for a pose
   double hopeless = 0.1;
   double believed = 2.0;  // log odds of a start
 } kRivals;
@@ -46,19 +41,10 @@ UncertainPose2 uncertain(const Pose2& pose, double position, double heading) {
   return {pose, sigmas.square().matrix().asDiagonal()};
 }
 
-bool isToBeSearched(const UncertainPose2& start) {
+bool isVagueStart(const UncertainPose2& start) {
   const Eigen::Vector3d sigma = start.covariance.diagonal().cwiseSqrt();
   return std::max(sigma.x(), sigma.y()) > kRivals.vague_position ||
          sigma.z() > kRivals.vague_heading;
-}
-
-bool areOne(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm() < kRivals.same_position &&
-         std::abs(geometry::wrapAngle(a.theta() - b.theta())) < kRivals.same_heading;
-}
-
-double sumOfExponentials(double a, double b) {
-  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
 }
 
 }  // namespace
@@ -66,8 +52,8 @@ double sumOfExponentials(double a, double b) {
 RivalTracks::RivalTracks(const TrackingContext& context, const UncertainPose2& start,
                          std::size_t room) {
   start_ = start;
-  if (isToBeSearched(start)) return;
-  Hypothesis given{PoseTrack(context, start, room), PoseBelief(kRivals.believed), 0.0, 0.0, {}};
+  if (isVagueStart(start)) return;
+  Hypothesis given{PoseTrack(context, start, room), PoseBelief(kRivals.believed), {}, 0.0, 0.0, {}};
   given.is_published = given.is_trusted = true;
   hypotheses_.push_back(std::move(given));
   is_started_ = is_claimed_ = true;
@@ -81,7 +67,7 @@ std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
   move(context, input);
   ++scans_since_search_;
   if (isInDoubt()) look(context, input);
-  thinOut();
+  hypotheses_ = thinnedOut(std::move(hypotheses_), is_confirmed_);
   settle();
   return is_started_ ? std::optional(report(context)) : std::nullopt;
 }
@@ -90,10 +76,12 @@ std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
 void RivalTracks::move(const TrackingContext& context, const TrackerInput& input) {
   way_.add(input.T_odom_base);
   for (Hypothesis& hypothesis : hypotheses_) {
+    hypothesis.way.add(input.T_odom_base);
     const auto update = hypothesis.track.update(context, input);
     if (!update) continue;
     hypothesis.update = *update;
-    hypothesis.belief.take(update->agreement, *input.scan.geometry(), update->is_outside);
+    hypothesis.belief.take(update->agreement, *input.scan.geometry(), update->is_outside,
+                           input.T_odom_base);
   }
 }
 
@@ -105,7 +93,7 @@ void RivalTracks::look(const TrackingContext& context, const TrackerInput& input
   search_again_ = is_new ? 1 : std::min(2 * search_again_, kRivals.search_again);
   keys_.add(input);
   weigh(input, is_new);
-  search(context, input);
+  if (isToBeSearched()) search(context, input);
 }
 
 void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {
@@ -127,12 +115,14 @@ void RivalTracks::search(const TrackingContext& context, const TrackerInput& inp
     if (std::any_of(hypotheses_.begin(), hypotheses_.end(), is_known)) continue;
     const auto start =
         uncertain(candidate.T_map_base, kRivals.found_position, kRivals.found_heading);
-    Hypothesis rival{PoseTrack(context, start, candidate.room), PoseBelief(0.0), 0.0, 0.0, {}};
+    Hypothesis rival{PoseTrack(context, start, candidate.room), PoseBelief(0.0), {}, 0.0, 0.0, {}};
     rival.track.setUsualHits(usual_hits_);
     const auto update = rival.track.update(context, input);
     if (!update) continue;
     rival.update = *update;
-    rival.belief.take(update->agreement, *input.scan.geometry(), update->is_outside);
+    rival.belief.take(update->agreement, *input.scan.geometry(), update->is_outside,
+                      input.T_odom_base);
+    rival.way.add(input.T_odom_base);
     rival.last_key = logLikelihood(update->agreement, *input.scan.geometry(), usual_hits_);
     rival.log_posterior = rival.last_key + logPriorOf(context, update->pose.mean);
     rival.is_trusted = isTrusted(update->pose.mean);
@@ -177,45 +167,33 @@ double RivalTracks::logPriorOf(const TrackingContext& context, const Pose2& T_ma
   return prior;
 }
 
-// The most probable first, without those that have become one with a better one or are hopeless.
-void RivalTracks::thinOut() {
-  std::stable_sort(
-      hypotheses_.begin(), hypotheses_.end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.log_posterior > b.log_posterior; });
-  std::vector<Hypothesis> kept;
-  for (Hypothesis& hypothesis : hypotheses_) {
-    const double ratio = hypothesis.log_posterior - hypotheses_.front().log_posterior;
-    if (kept.size() >= kRivals.most || ratio < kRivals.dropped) break;
-    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Hypothesis& other) {
-      return areOne(other.track.pose().mean, hypothesis.track.pose().mean);
-    });
-    if (same == kept.end()) {
-      kept.push_back(std::move(hypothesis));
-    } else {
-      same->is_published = same->is_published || hypothesis.is_published;
-    }
-  }
-  hypotheses_ = std::move(kept);
+// Whether the rest of the map has to be looked at.
+bool RivalTracks::isToBeSearched() const {
+  if (!is_claimed_ || !is_checked_ || hypotheses_.empty()) return true;
+  return hypotheses_.front().belief.probability() < kSure;
 }
 
-// Whether the rest of the map has to be looked at as well.
 bool RivalTracks::isInDoubt() const {
-  if (!is_claimed_ || !is_checked_ || hypotheses_.size() != 1) return true;
-  const PoseBelief& belief = hypotheses_.front().belief;
-  return belief.isContradicted() || belief.probability() < kRivals.sure;
+  return isToBeSearched() || hypotheses_.size() != 1;
+}
+
+// What spoke against a pose that had been certain was a flaw of the map, where all that is seen on
+// the way from there speaks for it again.
+void RivalTracks::dismissRivals() {
+  const bool is_sure = hypotheses_.front().belief.probability() >= kRivals.beyond_doubt;
+  if (!is_confirmed_ || !is_claimed_ || !is_sure) return;
+  hypotheses_.erase(hypotheses_.begin() + 1, hypotheses_.end());
 }
 
 void RivalTracks::settle() {
   if (hypotheses_.empty()) return;
-  if (!hypotheses_.front().is_published) {
-    for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_published = false;
-    hypotheses_.front().is_published = true;
-    if (is_claimed_ && !hypotheses_.front().is_trusted) {
-      way_.restart();
-      is_claimed_ = false;
-    }
+  if (is_confirmed_) {
+    takeOverIfCertain();
+    dismissRivals();
+  } else if (!hypotheses_.front().is_published) {
+    publish(0);
   }
-  if (!is_claimed_) claimIfCertain();
+  if (!is_claimed_ || !is_confirmed_) claimIfCertain();
   if (isInDoubt()) return;
   keys_.clear();
   search_again_ = 1;
@@ -223,42 +201,57 @@ void RivalTracks::settle() {
   hypotheses_.front().log_posterior = hypotheses_.front().last_key = 0.0;
 }
 
+// A pose that differs by more than a slip of the wheels has to be claimed anew.
+void RivalTracks::publish(std::size_t index) {
+  std::rotate(hypotheses_.begin(), hypotheses_.begin() + static_cast<std::ptrdiff_t>(index),
+              hypotheses_.begin() + static_cast<std::ptrdiff_t>(index) + 1);
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_published = false;
+  hypotheses_.front().is_published = true;
+  if (!is_claimed_ || hypotheses_.front().is_trusted) return;
+  way_.restart();
+  is_claimed_ = false;
+}
+
+// A pose that was tracked through thick and thin gives way to another only where scans speak
+// against it and the other is certain; one elsewhere in the map has to prove itself on the way, one
+// that the robot has been pushed to has not.
+void RivalTracks::takeOverIfCertain() {
+  const PoseBelief& belief = hypotheses_.front().belief;
+  if (!belief.isContradicted() || hypotheses_.size() < 2) return;
+  const auto by_posterior = [](const Hypothesis& a, const Hypothesis& b) {
+    return a.log_posterior < b.log_posterior;
+  };
+  const auto rival = std::max_element(hypotheses_.begin() + 1, hypotheses_.end(), by_posterior);
+  if (!isCertain(hypotheses_, *rival)) return;
+  const Pose2& published = hypotheses_.front().track.pose().mean;
+  const double distance = (rival->track.pose().mean.translation() - published.translation()).norm();
+  const bool is_proven = rival->way.isEnough() && belief.probability() < kRivals.hopeless;
+  if (distance >= kRivals.push_reach && !is_proven) return;
+  publish(static_cast<std::size_t>(rival - hypotheses_.begin()));
+}
+
 void RivalTracks::claimIfCertain() {
-  const Hypothesis& best = hypotheses_.front();
-  double rivals = best.log_posterior - 2.0 * kRivals.claim;  // what nobody has thought of
-  for (std::size_t i = 1; i < hypotheses_.size(); ++i) {
-    rivals = sumOfExponentials(rivals, hypotheses_[i].log_posterior);
-  }
-  const bool is_certain =
-      best.log_posterior - rivals >= kRivals.claim && best.belief.probability() >= kRivals.sure;
-  if (!is_certain || !isSound(best.update.agreement) || !way_.isEnough()) return;
-  is_claimed_ = is_started_ = true;
+  if (!isCertain(hypotheses_, hypotheses_.front()) || !way_.isEnough()) return;
+  is_claimed_ = is_started_ = is_confirmed_ = true;
   start_.reset();
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_trusted = hypothesis.is_published;
 }
 
-double RivalTracks::probabilityOf(const Hypothesis& hypothesis) const {
-  double sum = hypothesis.log_posterior;
-  for (const Hypothesis& other : hypotheses_) {
-    if (&other != &hypothesis) sum = sumOfExponentials(sum, other.log_posterior);
-  }
-  return std::exp(hypothesis.log_posterior - sum);
-}
-
 TrackerState RivalTracks::stateOf(const TrackingContext& context, double quality) const {
-  if (lost_scans_ >= context.config.lost_scans) return TrackerState::kLost;
-  const bool is_flagged = !is_claimed_ || quality < kRivals.sure ||
-                          isVague(context.config, hypotheses_.front().update.pose.covariance);
+  const TrackerUpdate& update = hypotheses_.front().update;
+  if (update.state == TrackerState::kLost) return TrackerState::kLost;
+  const bool is_flagged =
+      !is_claimed_ || quality < kSure || isVague(context.config, update.pose.covariance);
   return is_flagged ? TrackerState::kDegraded : TrackerState::kTracking;
 }
 
 TrackerUpdate RivalTracks::report(const TrackingContext& context) {
   const Hypothesis& published = hypotheses_.front();
   TrackerUpdate update = published.update;
-  update.quality = published.belief.probability() * probabilityOf(published);
-  lost_scans_ = update.quality < kRivals.hopeless ? lost_scans_ + 1 : 0;
+  update.quality = published.belief.probability() * probabilityOf(hypotheses_, published);
   update.state = stateOf(context, update.quality);
-  update.covariance_valid = update.state != TrackerState::kLost;
+  update.covariance_valid =
+      update.state != TrackerState::kLost && update.quality >= kRivals.hopeless;
   update.rivals = rivals();
   if (!update.rivals.empty()) update.rivals.erase(update.rivals.begin());
   return update;
@@ -292,7 +285,7 @@ std::optional<std::size_t> RivalTracks::room() const {
 std::vector<RivalPose> RivalTracks::rivals() const {
   std::vector<RivalPose> all;
   for (const Hypothesis& each : hypotheses_) {
-    all.push_back({each.track.pose(), each.track.room(), probabilityOf(each)});
+    all.push_back({each.track.pose(), each.track.room(), probabilityOf(hypotheses_, each)});
   }
   return all;
 }

@@ -20,9 +20,9 @@ struct BeamModel {
   double stopped;
   double through;
 
-  double logOf(const ScanAgreement& agreement, double stopped_beams) const {
+  double logOf(const ScanAgreement& agreement) const {
     return static_cast<double>(agreement.on_wall) * std::log(hit) +
-           stopped_beams * std::log(stopped) +
+           static_cast<double>(agreement.occluded) * std::log(stopped) +
            static_cast<double>(agreement.beyond) * std::log(through);
   }
 };
@@ -43,15 +43,15 @@ double weightOf(const ScanAgreement& agreement, const scan::ScanGeometry& geomet
 double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& geometry,
                      double usual_hits) {
   const double hit = std::clamp(usual_hits, 0.5, 0.85);
-  const BeamModel model{hit, 1.0 - kThrough - hit, kThrough};
-  const auto stopped = static_cast<double>(agreement.occluded + agreement.unjudged);
-  return weightOf(agreement, geometry) * model.logOf(agreement, stopped);
+  const BeamModel right{hit, 1.0 - kThrough - hit, kThrough};
+  const double stopped = std::max(kElsewhere.stopped, right.stopped);
+  const double left = (1.0 - stopped) / (1.0 - kElsewhere.stopped);
+  const BeamModel elsewhere{left * kElsewhere.hit, stopped, left * kElsewhere.through};
+  return weightOf(agreement, geometry) * (right.logOf(agreement) - elsewhere.logOf(agreement));
 }
 
 double logOdds(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
-  const auto stopped = static_cast<double>(agreement.occluded);
-  return weightOf(agreement, geometry) *
-         (kRight.logOf(agreement, stopped) - kElsewhere.logOf(agreement, stopped));
+  return weightOf(agreement, geometry) * (kRight.logOf(agreement) - kElsewhere.logOf(agreement));
 }
 
 ScanAgreement scanAgreement(const scan::Scan& scan, const geometry::Pose2& T_map_sensor,

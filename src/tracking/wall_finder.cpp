@@ -17,6 +17,10 @@ constexpr struct {
   int most_reassignments = 5;
 } kFinder;
 
+double varianceOf(double sigma) {
+  return sigma * sigma;
+}
+
 // Walls are not as straight as lines: what the residuals show beyond the sensor's noise counts as
 // noise.
 FittedLine describe(const fitting::LineFit& fit, const std::vector<const BeamPoint*>& points,
@@ -48,6 +52,21 @@ PoseFilter WallFinder::refineByHough(const PoseFilter& predicted, const Walls& w
   return refined;
 }
 
+void WallFinder::addMapUncertainty(const std::vector<const BeamPoint*>& points,
+                                   PolarLine& line) const {
+  // The map's wall is uncertain where it was seen: a turn about that place shifts the foot of the
+  // perpendicular.
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+  for (const BeamPoint* point : points) centroid += point->position;
+  centroid /= static_cast<double>(points.size());
+  const double lever = line.direction().dot(centroid);
+  const double turn = varianceOf(wall_.direction_sigma);
+  Eigen::Matrix2d added;
+  added << varianceOf(wall_.position_sigma) + lever * lever * turn, lever * turn, lever * turn,
+      turn;
+  line.covariance += added;
+}
+
 void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const Pose2& T_base_map,
                          const Eigen::Matrix3d& walk, WallFit& result) const {
   // Least squares over the beams near the line, which is moved to fit them until they stay the
@@ -70,6 +89,7 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
   result.refusal = refusalOf(wall_, near, line);
   if (result.refusal != WallRefusal::kNone) return;
   result.fit = describe(fit, near, walk);
+  addMapUncertainty(near, result.fit->line);
 }
 
 std::vector<WallFit> WallFinder::find(const PoseFilter& predicted, const world::RoomMap& map,
@@ -78,7 +98,7 @@ std::vector<WallFit> WallFinder::find(const PoseFilter& predicted, const world::
   Walls walls;
   for (const world::WallIndex& index : indices) walls.push_back(&map.wall(index));
   const auto gate = [&](const PoseFilter& filter) {
-    return gateWalls(gate_, walls, wall_.position_sigma, filter.pose(), sweep.points);
+    return gateWalls(gate_, walls, wall_.position_sigma, filter.assumedPose(), sweep.points);
   };
   const std::vector<GatedWall> first = gate(predicted);
   const PoseFilter refined = refineByHough(predicted, walls, first);

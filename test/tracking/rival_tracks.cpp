@@ -92,6 +92,41 @@ TEST_F(RivalTracksTest, UnreportedTurnsAreFound) {
   }
 }
 
+TEST_F(RivalTracksTest, KidnappingOfARobotThatWasCertainIsFlaggedUntilTheOtherPoseHasProvenItself) {
+  startAt(truth_);
+  go({0.0, 0.0, 0.1}, 40);
+  truth_ = Pose2(5.6, -0.4, 2.0);
+  for (int i = 0; i < 60; ++i) {
+    go({0.0, 0.0, 0.1}, 1);
+    EXPECT_TRUE(isAt(last_, truth_) || last_->state != TrackerState::kTracking) << i;
+  }
+  EXPECT_TRUE(isAt(last_, truth_));
+  EXPECT_EQ(last_->state, TrackerState::kTracking);
+  EXPECT_EQ(last_->room, "east");
+}
+
+// The walls of west in the south and east are not there: the map is wrong, not the pose.
+TEST_F(RivalTracksTest, APoseThatWasCertainIsKeptWhereTheMapIsWrong) {
+  test::SimulatedRooms real(R"(
+rooms:
+  west: {size: [6.0, 4.0], walls: {south: {spans: [[0.0, 3.0]]}}}
+  beyond: {size: [6.0, 3.0], pose: [0.0, -3.5, 0.0]}
+doors:
+  - {between: [west, beyond], at: [1.5, -2.0], width: 3.0}
+)");
+  startAt(truth_);
+  go({0.0, 0.0, 0.1}, 40);
+  for (int i = 0; i < 80; ++i) {
+    const Pose2 step(0.02, 0.0, 0.05);
+    truth_ = truth_ * step;
+    odometry_ = odometry_ * step;
+    stamp_ += 100'000'000;
+    last_ = tracker_.update(real.look(truth_, stamp_), odometry_, {});
+    EXPECT_TRUE(isAt(last_, truth_)) << i;
+    EXPECT_NE(last_->state, TrackerState::kLost) << i;
+  }
+}
+
 TEST_F(RivalTracksTest, TheTwinIsNotBelieved) {
   truth_ = Pose2(1.0, 0.4, 0.3);
   startAt({-1.0, -0.4, 0.3 - geometry::kPi});

@@ -15,6 +15,9 @@ struct KeyScan {
   geometry::Pose2 T_base_sensor;
 };
 
+/// Whether a scan taken there says something new: 0.3 m or 20° away.
+bool isAnotherView(const geometry::Pose2& T_odom_base, const geometry::Pose2& T_odom_other);
+
 /// The last scans that say something new each, taken 0.3 m or 20° apart: hypotheses that turn up
 /// late are judged by them too.
 class KeyScans {

@@ -16,8 +16,10 @@ namespace sightline::tracking {
 /// Kalman filter over (x, y, θ, s): the robot's pose in the map and the scale of its odometry, true
 /// length over measured (jensfelt section 4.1; composed in the body frame with both Jacobians, the
 /// scale as a state). Errors of the walls of the map are constants, which no number of scans
-/// averages out: they are considered with their prior, and their covariance with the states is kept
-/// (Schmidt-Kalman), for the last 32 of them. A value: copies are independent.
+/// averages out. The gains take them for noise of each scan, which forgives walls that are not
+/// straight and things in front of them; what each constant has done to the pose is kept, for the
+/// last 32 walls, and adds to the covariance (consider analysis, Schmidt 1966). A value: copies are
+/// independent.
 class PoseFilter {
  public:
   /// Number of states: x, y, θ and s, then the error of the sweep's motion.
@@ -53,21 +55,30 @@ class PoseFilter {
   /// The same with no more uncertainty than these standard deviations [m, rad].
   PoseFilter limited(double position_sigma, double heading_sigma) const;
 
+  /// The pose, with all that makes its error.
   geometry::UncertainPose2 pose() const;
+  /// The pose with the covariance that gains and gates go by.
+  geometry::UncertainPose2 assumedPose() const;
   double scale() const { return scale_; }
   double scaleSigma() const { return std::sqrt(covariance_(3, 3)); }
-  /// Covariance of x, y, θ and s.
+  /// Covariance of x, y, θ and s that the gains go by.
   Eigen::Matrix4d covariance() const { return covariance_.topLeftCorner<4, 4>(); }
 
  private:
-  using WithWall = Eigen::Matrix<double, kStates, 2>;
-  struct WallCovariance {
+  using ByWall = Eigen::Matrix<double, kStates, 2>;
+  // What the constant error of a wall does to the states, and the prior of that error.
+  struct WallShare {
     world::WallIndex wall;
-    WithWall with_states;
+    Eigen::Matrix2d prior;
+    ByWall of_states;  // their derivative
+
+    Eigen::Matrix<double, kStates, kStates> covariance() const {
+      return of_states * prior * of_states.transpose();
+    }
   };
 
-  const WallCovariance* find(const world::WallIndex& wall) const;
-  void updateWalls(const Innovation& innovation, const WithWall& gain);
+  WallShare& shareOf(const WallError& wall);
+  void updateWalls(const Innovation& innovation, const ByWall& gain);
 
   geometry::Pose2 pose_;
   double scale_;
@@ -77,7 +88,7 @@ class PoseFilter {
   double sweep_heading_variance_ = 0.0;
   Eigen::Matrix<double, kStates, kStates> covariance_ =
       Eigen::Matrix<double, kStates, kStates>::Zero();
-  std::vector<WallCovariance> walls_;  // in the order in which they were first used
+  std::vector<WallShare> walls_;  // in the order in which they were first used
 };
 
 }  // namespace sightline::tracking

@@ -4,21 +4,23 @@
 #include <optional>
 #include <vector>
 
+#include "sightline/tracking/hypothesis.h"
 #include "sightline/tracking/key_scans.h"
-#include "sightline/tracking/pose_belief.h"
-#include "sightline/tracking/pose_track.h"
 
 namespace sightline::tracking {
 
-/// Several explanations of where the robot is, of which the most probable one is published. Each is
-/// a PoseTrack with the log-posterior of what the key scans say of it. As long as one explains
-/// what is seen, there is no other; where scans speak against it, and until a pose that nobody gave
-/// is certain, the whole map is searched again and again (relocalise).
+/// Several explanations of where the robot is, of which one is published. Each is a PoseTrack with
+/// the log-posterior of what the key scans say of it. As long as one explains what is seen, there
+/// is no other; where views speak against it, and until a pose that nobody gave is certain, the
+/// whole map is searched again and again (relocalise).
 ///
-/// A pose that was found by search is claimed only with posterior odds of 10⁴, by a sound scan, and
-/// after the robot has turned by 180° or driven 2 m: what the map lacks is no noise, so that no
-/// ratio of evidence is safe by itself. Until the first claim there are no updates; after a jump
-/// they are flagged.
+/// A pose is certain with posterior odds of 10⁴ and by a sound scan, and is claimed after the robot
+/// has turned by 180° or driven 2 m as well: what the map lacks is no noise, so that no ratio of
+/// evidence is safe by itself. Until the first claim there are no updates, and the most probable
+/// pose is the published one; from then on another one takes its place only where the scan speaks
+/// against it and the other is certain: within 0.75 m, where the robot may have been pushed or
+/// turned, at once; elsewhere after the other has explained what was seen for as long as a claim
+/// takes. After a jump the updates are flagged.
 class RivalTracks {
  public:
   /// Anywhere in the map.
@@ -38,20 +40,10 @@ class RivalTracks {
   /// The published pose, and its room; nothing where there is none.
   std::optional<geometry::UncertainPose2> pose() const;
   std::optional<std::size_t> room() const;
-  /// All that is held possible, most probable first.
+  /// All that is held possible: the published pose, then the most probable.
   std::vector<RivalPose> rivals() const;
 
  private:
-  struct Hypothesis {
-    PoseTrack track;
-    PoseBelief belief;
-    double log_posterior = 0.0;  // up to a constant that all share
-    double last_key = 0.0;       // the part of the last key scan in it
-    TrackerUpdate update;        // by the last scan
-    bool is_published = false;
-    bool is_trusted = false;  // as near to the given start as it was said to be, or claimed since
-  };
-
   void move(const TrackingContext& context, const TrackerInput& input);
   void look(const TrackingContext& context, const TrackerInput& input);
   void weigh(const TrackerInput& input, bool is_new_key);
@@ -59,11 +51,13 @@ class RivalTracks {
   bool isTrusted(const geometry::Pose2& T_map_base) const;
   double mahalanobis(const geometry::Pose2& T_map_base) const;
   double logPriorOf(const TrackingContext& context, const geometry::Pose2& T_map_base) const;
-  void thinOut();
   void settle();
   void claimIfCertain();
+  void dismissRivals();
+  bool isToBeSearched() const;
   bool isInDoubt() const;
-  double probabilityOf(const Hypothesis& hypothesis) const;
+  void publish(std::size_t index);
+  void takeOverIfCertain();
   TrackerState stateOf(const TrackingContext& context, double quality) const;
   TrackerUpdate report(const TrackingContext& context);
 
@@ -77,10 +71,10 @@ class RivalTracks {
   std::optional<std::int64_t> newest_;
   bool is_started_ = false;
   bool is_claimed_ = false;
-  bool is_checked_ = false;  // whether the start has been compared with the rest of the map
+  bool is_confirmed_ = false;  // whether the published pose has ever been certain: it is kept then
+  bool is_checked_ = false;    // whether the start has been compared with the rest of the map
   int scans_since_search_ = 0;
   int search_again_ = 1;  // scans after the last search, from the same place
-  int lost_scans_ = 0;    // in a row
 };
 
 }  // namespace sightline::tracking

@@ -59,7 +59,8 @@ class RoomTracker {
 
   /// Whether a pose has been given, or found and claimed.
   bool hasPose() const;
-  /// All that is held possible, most probable first; nothing by the method plain.
+  /// All that is held possible: the published pose, then the most probable; nothing by the method
+  /// plain.
   std::vector<RivalPose> rivals() const;
   const world::RoomMap& map() const { return context_.map; }
 

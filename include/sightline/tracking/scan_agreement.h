@@ -32,10 +32,11 @@ struct ScanAgreement {
 /// stands in its rooms.
 constexpr double kUsualHits = 0.6;
 
-/// Logarithm of the likelihood of a scan, up to what is the same for all poses, by a beam model of
-/// three outcomes: a beam meets the wall, something before it, or goes through it (0.02). Beams of
-/// which the map tells nothing count as stopped before a wall. What stops one beam stops its
-/// neighbours: all within 4° together count as one.
+/// Logarithm of the likelihood of a scan, in proportion to that from just any other pose, by a beam
+/// model of three outcomes: a beam meets the wall, something before it, or goes through it (0.02);
+/// from just any other pose fewer meet it and more go through it. Beams of which the map tells
+/// nothing say nothing: else poses with many walls around them would win. What stops one beam stops
+/// its neighbours: all within 4° together count as one.
 ///
 /// @param usual_hits  share of the beams that meet walls; what lies outside [0.5, 0.85] is taken
 /// for

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "rooms/recorded_drive.h"
+#include "bench/rooms/recorded_drive.h"
 
 /// What goes wrong on a recorded drive.
 namespace sightline::bench {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "rooms/playback.h"
-#include "rooms/room_figures.h"
+#include "bench/rooms/playback.h"
+#include "bench/rooms/room_figures.h"
 #include "sightline/tracking/relocaliser.h"
 
 /// Starts without a pose on the shipped floor: from a random place in a room to its door, then

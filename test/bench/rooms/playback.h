@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "rooms/recorded_drive.h"
+#include "bench/rooms/recorded_drive.h"
 #include "scripted_transforms.h"
 #include "sightline/pipeline/scan_feed.h"
 #include "sightline/tracking/room_tracker.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "figures.h"
-#include "rooms/playback.h"
+#include "bench/figures.h"
+#include "bench/rooms/playback.h"
 #include "sightline/geometry/statistics.h"
 
 namespace sightline::bench {

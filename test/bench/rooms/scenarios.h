@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "rooms/two_room_runs.h"
+#include "bench/rooms/two_room_runs.h"
 
 /// The scenarios in the two rooms, and what is printed of them.
 namespace sightline::bench {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "rooms/disturbances.h"
-#include "rooms/room_figures.h"
+#include "bench/rooms/disturbances.h"
+#include "bench/rooms/room_figures.h"
 #include "two_rooms.h"
 
 /// Two rooms of 8x6 and 5x6 m joined by a door of 0.9 m, 120 s at 0.4 m/s, 361 beams over 180° at
