@@ -26,6 +26,8 @@ RoomControls::RoomControls(ros::NodeHandle node, ros::NodeHandle private_node,
       private_node.advertiseService("load_rooms", &RoomControls::onLoadRooms, this);
   inflate_server_ =
       private_node.advertiseService("inflate_uncertainty", &RoomControls::onInflate, this);
+  relocalise_server_ =
+      private_node.advertiseService("relocalise", &RoomControls::onRelocalise, this);
   reconfigure_.updateConfig(bridge::toReconfigure(config_.tracker));
   reconfigure_.setCallback([this](RoomTrackerConfig& settings, std::uint32_t) {
     bridge::applyReconfigure(settings, config_.tracker);
@@ -61,6 +63,14 @@ bool RoomControls::onLoadRooms(LoadRooms::Request& request, LoadRooms::Response&
   return true;
 }
 
+bool RoomControls::onRelocalise(std_srvs::Trigger::Request&,
+                                std_srvs::Trigger::Response& response) {
+  response.success = tracker_.relocalise();
+  response.message = response.success ? "searching the map: drive 2 m or turn by 180 degrees"
+                                      : "the method plain cannot search the map";
+  return true;
+}
+
 bool RoomControls::onInflate(InflateUncertainty::Request& request,
                              InflateUncertainty::Response& response) {
   response.success = request.position >= 0.0 && request.heading >= 0.0 &&
@@ -80,16 +90,19 @@ void RoomControls::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
       status.summary(DiagnosticStatus::OK, "tracking");
       break;
     case TrackerStatus::DEGRADED:
-      status.summary(DiagnosticStatus::WARN, "degraded: the pose is vague");
+      status.summary(DiagnosticStatus::WARN, "degraded: the pose is vague, or not certain yet");
       break;
     case TrackerStatus::LOST:
       status.summary(DiagnosticStatus::ERROR, "lost: the scans do not fit the room");
       break;
     default:
-      status.summary(DiagnosticStatus::WARN, "no pose yet: set initial_pose or send initialpose");
+      status.summary(DiagnosticStatus::WARN,
+                     "no pose yet: set initial_pose or send initialpose, or drive "
+                     "2 m or turn by 180 degrees to be found");
   }
   status.add("room", output_.status().room);
   status.add("quality", output_.status().quality);
+  status.add("poses held possible", tracker_.rivals().size());
   status.add("odometry scale", output_.odometryScale());
 }
 

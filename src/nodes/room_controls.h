@@ -6,6 +6,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
 
 #include "sightline/InflateUncertainty.h"
 #include "sightline/LoadRooms.h"
@@ -30,6 +31,7 @@ class RoomControls {
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   bool onSetRoom(SetRoom::Request& request, SetRoom::Response& response);
   bool onLoadRooms(LoadRooms::Request& request, LoadRooms::Response& response);
+  bool onRelocalise(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onInflate(InflateUncertainty::Request& request, InflateUncertainty::Response& response);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -42,6 +44,7 @@ class RoomControls {
   ros::Subscriber initial_pose_subscriber_;
   ros::ServiceServer set_room_server_;
   ros::ServiceServer load_rooms_server_;
+  ros::ServiceServer relocalise_server_;
   ros::ServiceServer inflate_server_;
 };
 

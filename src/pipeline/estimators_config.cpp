@@ -12,8 +12,7 @@ void LinesConfig::visit(config::FieldVisitor& visitor) {
 void RoomsConfig::visit(config::FieldVisitor& visitor) {
   visitor.path("map", map, "path of the rooms file; must be set");
   visitor.pose("initial_pose", initial_pose,
-               "pose of the robot in the map at the first scan; a node that has none waits for "
-               "initialpose");
+               "pose of the robot in the map at the first scan; without it the map is searched");
   visitor.numbers("initial_sigma", initial_sigma,
                   {"m, rad",
                    {0.0, 100.0},

@@ -54,9 +54,6 @@ pipeline::EstimatorSet nodesOf(const Job& job, const pipeline::EstimatorsConfig&
                                            config.odometry.has_value(), true};
   const pipeline::EstimatorSet set = job.nodes ? nodesOf(*job.nodes) : by_settings;
   if (set.rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
-  if (set.rooms && !config.rooms->initial_pose) {
-    throw config::Error(job.config, 0, "rooms.initial_pose", "missing");
-  }
   if (set.rooms && job.no_wheels) {
     throw tools::UsageError("--no-wheels leaves rooms without odometry");
   }

@@ -1,6 +1,7 @@
 #include "sightline/tracking/pose_track.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -44,9 +45,11 @@ void applyWalls(const TrackingContext& context, PoseFilter& filter,
   for (const std::size_t i : byBeams(walls)) {
     WallUpdate& wall = walls[i];
     if (!wall.fit) continue;
-    const auto& expected = context.map.wall({wall.room, wall.wall}).segment;
+    const world::WallIndex index{wall.room, wall.wall};
+    const geometry::Segment& expected = context.map.wall(index).segment;
     const auto innovation =
-        filter.innovation(wall.fit->line, expected.line(), wall.fit->motion_jacobian);
+        filter.innovation(wall.fit->line, expected.line(), wall.fit->motion_jacobian,
+                          WallError(index, expected, context.config.wall));
     wall.innovation = WallInnovation{innovation.value, innovation.nis};
     if (innovation.nis <= context.config.wall.max_nis) {
       filter.update(innovation);
@@ -56,9 +59,37 @@ void applyWalls(const TrackingContext& context, PoseFilter& filter,
   }
 }
 
-bool contradictsPrediction(const PoseTrack::Explanation& explanation, double min_quality) {
+// Log odds of what explains a scan beside the prediction.
+constexpr struct {
+  double coasting = -2.0;
+  double slip = -6.0;
+  double no_walls = -2.0;
+  double close_walls = -1.0;
+  // What counts as close [m, rad], one sigma.
+  double close_position = 0.05;
+  double close_heading = 0.015;
+  // Beams that meet walls of the map and yet belong to no wall that corrects the pose: more than
+  // this share of them is not as predicted, and costs this log odds where it is all of them.
+  double most_unused = 0.15;
+  double unused = -8.0;
+  double learning = 0.1;  // of how many beams meet walls, by a scan
+} kPriors;
+
+double unusedShare(const PoseTrack::Explanation& explanation) {
+  double used = 0.0;
+  for (const WallUpdate& wall : explanation.walls) {
+    if (wall.accepted()) used += static_cast<double>(wall.acceptedBeams());
+  }
+  const auto met = static_cast<double>(explanation.agreement.on_wall);
+  return met > 0.0 ? std::max(0.0, 1.0 - used / met) : 0.0;
+}
+
+bool contradictsPrediction(const TrackerInput& input, const PoseTrack::Explanation& explanation,
+                           double min_quality) {
   const ScanAgreement& agreement = explanation.agreement;
   if (agreement.evidence() >= kLeastEvidence && agreement.quality() < min_quality) return true;
+  if (logOdds(agreement, *input.scan.geometry()) < 0.0) return true;
+  if (unusedShare(explanation) > kPriors.most_unused) return true;
   // Walls well seen and yet refused: gates must not lock out for ever what contradicts a wrong
   // prediction.
   std::size_t accepted = 0;
@@ -77,43 +108,102 @@ PoseTrack::PoseTrack(const TrackingContext& context, const geometry::UncertainPo
 
 void PoseTrack::predict(const TrackingContext& context, const TrackerInput& input) {
   const auto step = memory_.step(input);
-  if (step) filter_.predict(context.config.odometry, *step);
+  coasting_.reset();
+  if (!step) return;
+  if (last_motion_) {
+    coasting_ = filter_;
+    coasting_->predict(context.config.odometry, *last_motion_);
+    coasting_->inflate(0.1 * last_motion_->translation().norm(),
+                       0.1 * std::abs(last_motion_->theta()));
+  }
+  filter_.predict(context.config.odometry, *step);
 }
 
 PoseTrack::Explanation PoseTrack::explainFrom(const PoseFilter& prior,
+                                              const PoseFilter& looked_from,
                                               const TrackingContext& context,
                                               const TrackerInput& input, const Sweep& sweep) const {
-  using Doors = world::RoomView::Doors;
-  Explanation explanation{prior, {}, {}};
+  Explanation explanation{prior, {}, {}, 0.0};
   const WallFinder finder(context.config);
   for (WallFit& fit :
-       finder.find(prior, context.map, wallsInSight(context, memory_.room()), sweep)) {
+       finder.find(looked_from, context.map, wallsInSight(context, memory_.room()), sweep)) {
     explanation.walls.emplace_back(std::move(fit));
   }
   explanation.filter.beginSweep(sweep.motion_noise);
   applyWalls(context, explanation.filter, explanation.walls);
+  judge(context, input, explanation);
+  return explanation;
+}
+
+void PoseTrack::judge(const TrackingContext& context, const TrackerInput& input,
+                      Explanation& explanation) const {
+  using Doors = world::RoomView::Doors;
   explanation.agreement =
       agreementAt(context, input, explanation.filter.pose().mean, memory_.room(),
                   context.config.neighbours ? Doors::kOpen : Doors::kIgnored);
-  return explanation;
+  explanation.log_posterior =
+      logLikelihood(explanation.agreement, *input.scan.geometry(), usual_hits_);
+  for (const WallUpdate& wall : explanation.walls) {
+    if (!wall.innovation) continue;
+    explanation.log_posterior -= 0.5 * std::min(wall.innovation->nis, context.config.wall.max_nis);
+  }
+  explanation.log_posterior += kPriors.unused * unusedShare(explanation);
+}
+
+// The walls that were found were none: the pose stays as predicted.
+PoseTrack::Explanation PoseTrack::withoutWalls(const Explanation& taken,
+                                               const TrackingContext& context,
+                                               const TrackerInput& input) const {
+  Explanation none{filter_, taken.walls, {}, 0.0};
+  judge(context, input, none);
+  none.log_posterior =
+      logLikelihood(none.agreement, *input.scan.geometry(), usual_hits_) + kPriors.unused;
+  for (WallUpdate& wall : none.walls) {
+    if (wall.accepted()) wall.refusal = WallRefusal::kOutsideGate;
+  }
+  return none;
 }
 
 PoseTrack::Explanation PoseTrack::explain(const TrackingContext& context,
                                           const TrackerInput& input) const {
   const SlipConfig& slip = context.config.slip;
   const Sweep sweep = readSweep(input.scan, input.T_base_sensor);
-  Explanation as_predicted = explainFrom(filter_, context, input, sweep);
-  if (!contradictsPrediction(as_predicted, slip.min_quality)) return as_predicted;
+  Explanation best = explainFrom(filter_, filter_, context, input, sweep);
+  if (!contradictsPrediction(input, best, slip.min_quality)) return best;
+  const auto consider = [&best](Explanation other, double log_prior) {
+    other.log_posterior += log_prior;
+    if (other.log_posterior > best.log_posterior) best = std::move(other);
+  };
+  const Explanation taken = best;
+  const PoseFilter close = filter_.limited(kPriors.close_position, kPriors.close_heading);
+  Explanation by_close_walls = explainFrom(filter_, close, context, input, sweep);
+  for (std::size_t i = 0; i < taken.walls.size(); ++i) {
+    by_close_walls.walls[i].gate = taken.walls[i].gate;  // what the prediction leaves open
+    by_close_walls.walls[i].beams_in_gate = taken.walls[i].beams_in_gate;
+  }
+  consider(std::move(by_close_walls), kPriors.close_walls);
+  consider(withoutWalls(taken, context, input), kPriors.no_walls);
+  if (coasting_)
+    consider(explainFrom(*coasting_, *coasting_, context, input, sweep), kPriors.coasting);
   PoseFilter slipped = filter_;
   slipped.inflate(slip.position_sigma, slip.heading_sigma);
-  Explanation as_slip = explainFrom(slipped, context, input, sweep);
-  const bool better = as_slip.agreement.support() > as_predicted.agreement.support();
-  return better ? as_slip : as_predicted;
+  consider(explainFrom(slipped, slipped, context, input, sweep), kPriors.slip);
+  return best;
+}
+
+void PoseTrack::learnHits(const ScanAgreement& agreement) {
+  if (agreement.judged() < kLeastEvidence) return;
+  const double hits =
+      static_cast<double>(agreement.on_wall) / static_cast<double>(agreement.judged());
+  usual_hits_ += kPriors.learning * (hits - usual_hits_);
 }
 
 TrackerUpdate PoseTrack::commit(const TrackingContext& context, const TrackerInput& input,
                                 Explanation explanation) {
   filter_ = explanation.filter;
+  learnHits(explanation.agreement);
+  if (before_) last_motion_ = geometry::between(*before_, pose().mean);
+  before_ = pose().mean;
   TrackerUpdate update = memory_.report(context, input, pose(), explanation.agreement);
   update.odometry_scale = filter_.scale();
   update.odometry_scale_sigma = filter_.scaleSigma();

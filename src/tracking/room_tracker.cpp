@@ -23,6 +23,7 @@ void ifStarted(Method& method, const Function& function) {
 RoomTracker::RoomTracker(const TrackerConfig& config, world::RoomMap map)
     : context_{config, std::move(map)} {
   config::validate(config);
+  startAnywhere();
 }
 
 void RoomTracker::configure(const TrackerConfig& config) {
@@ -30,19 +31,53 @@ void RoomTracker::configure(const TrackerConfig& config) {
   const bool is_another = config.method != context_.config.method;
   context_.config = config;
   if (!is_another) return;
-  auto before = method_;
-  ifStarted(before, [&](auto& tracker) { start(tracker.pose(), tracker.memory().room()); });
+  const auto before = poseAndRoom();
+  if (before) {
+    start(before->first, before->second);
+  } else {
+    startAnywhere();
+  }
+}
+
+std::optional<std::pair<geometry::UncertainPose2, std::size_t>> RoomTracker::poseAndRoom() const {
+  if (const auto* plain = std::get_if<PlainTracker>(&method_)) {
+    return std::make_pair(plain->pose(), plain->room());
+  }
+  const auto* full = std::get_if<RivalTracks>(&method_);
+  if (!full || !full->pose()) return std::nullopt;
+  return std::make_pair(*full->pose(), *full->room());
+}
+
+void RoomTracker::startAnywhere() {
+  if (context_.config.method == Method::kFull) {
+    method_.emplace<RivalTracks>();
+  } else {
+    method_.emplace<std::monostate>();
+  }
 }
 
 void RoomTracker::start(const geometry::UncertainPose2& T_map_base, std::size_t room) {
-  switch (context_.config.method) {
-    case Method::kFull:
-      method_.emplace<PoseTrack>(context_, T_map_base, room);
-      return;
-    case Method::kPlain:
-      method_.emplace<PlainTracker>(context_, T_map_base, room);
-      return;
+  if (context_.config.method == Method::kFull) {
+    method_.emplace<RivalTracks>(context_, T_map_base, room);
+  } else {
+    method_.emplace<PlainTracker>(context_, T_map_base, room);
   }
+}
+
+bool RoomTracker::relocalise() {
+  if (context_.config.method != Method::kFull) return false;
+  startAnywhere();
+  return true;
+}
+
+bool RoomTracker::hasPose() const {
+  const auto* full = std::get_if<RivalTracks>(&method_);
+  return full ? full->isStarted() : std::holds_alternative<PlainTracker>(method_);
+}
+
+std::vector<RivalPose> RoomTracker::rivals() const {
+  const auto* full = std::get_if<RivalTracks>(&method_);
+  return full ? full->rivals() : std::vector<RivalPose>();
 }
 
 void RoomTracker::setPose(const geometry::UncertainPose2& T_map_base) {
@@ -58,19 +93,23 @@ void RoomTracker::inflate(double position_sigma, double heading_sigma) {
 bool RoomTracker::setRoom(const std::string& name) {
   const auto room = context_.map.find(name);
   if (!room) return false;
-  ifStarted(method_, [&](auto& tracker) { tracker.memory().setRoom(*room); });
+  ifStarted(method_, [&](auto& tracker) { tracker.setRoom(*room); });
   inflate(context_.config.threshold_position_sigma, context_.config.threshold_heading_sigma);
   return true;
 }
 
 void RoomTracker::replaceMap(world::RoomMap map) {
+  const auto before = poseAndRoom();
   context_.map = std::move(map);
-  auto before = method_;
-  ifStarted(before, [&](auto& tracker) { setPose(tracker.pose()); });
+  if (before) {
+    setPose(before->first);
+  } else {
+    startAnywhere();
+  }
 }
 
 void RoomTracker::restartClock() {
-  ifStarted(method_, [](auto& tracker) { tracker.memory().restartClock(); });
+  ifStarted(method_, [](auto& tracker) { tracker.restartClock(); });
 }
 
 std::optional<TrackerUpdate> RoomTracker::update(const scan::Scan& scan,

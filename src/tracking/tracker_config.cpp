@@ -106,7 +106,7 @@ void TrackerConfig::visit(config::FieldVisitor& visitor) {
       "degraded_heading_sigma", degraded_heading_sigma,
       {"rad", {0.0, 3.2}, "heading uncertainty above which tracking is called degraded"});
   visitor.number("lost_quality", lost_quality,
-                 {"1", kShare, "quality below which a scan does not fit the room"});
+                 {"1", kShare, "method plain: quality below which a scan does not fit the room"});
   visitor.integer(
       "lost_scans", lost_scans,
       {"scans", {1, 10000}, "scans in a row that do not fit before tracking is called lost"});

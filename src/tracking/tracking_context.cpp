@@ -26,12 +26,12 @@ bool hasDoors(const world::RoomMap& map, std::size_t room) {
   });
 }
 
-bool isVague(const TrackerConfig& config, const Eigen::Matrix3d& P) {
-  return std::sqrt(std::max(P(0, 0), P(1, 1))) > config.degraded_position_sigma ||
-         std::sqrt(P(2, 2)) > config.degraded_heading_sigma;
-}
-
 }  // namespace
+
+bool isVague(const TrackerConfig& config, const Eigen::Matrix3d& covariance) {
+  return std::sqrt(std::max(covariance(0, 0), covariance(1, 1))) > config.degraded_position_sigma ||
+         std::sqrt(covariance(2, 2)) > config.degraded_heading_sigma;
+}
 
 std::optional<Pose2> TrackMemory::step(const TrackerInput& input) {
   const auto last = T_odom_base_;
@@ -46,30 +46,29 @@ void TrackMemory::restartClock() {
   stamp_ = 0;
 }
 
-TrackerState TrackMemory::judge(const TrackingContext& context, const UncertainPose2& pose,
-                                const ScanAgreement& agreement) {
+TrackerState TrackMemory::judge(const TrackingContext& context, const TrackerUpdate& update) {
   const TrackerConfig& config = context.config;
-  const bool tells = agreement.evidence() >= kLeastEvidence;
-  const bool outside =
-      context.map.rooms()[room_].distance(pose.mean.translation()) > kRooms.door_reach;
-  if (tells || outside) {
-    disagreeing_scans_ =
-        outside || agreement.quality() < config.lost_quality ? disagreeing_scans_ + 1 : 0;
+  if (update.agreement.evidence() >= kLeastEvidence || update.is_outside) {
+    const bool disagrees = update.is_outside || update.agreement.quality() < config.lost_quality;
+    disagreeing_scans_ = disagrees ? disagreeing_scans_ + 1 : 0;
   }
   if (disagreeing_scans_ >= config.lost_scans) return TrackerState::kLost;
-  const bool is_degraded = disagreeing_scans_ > 0 || isVague(config, pose.covariance);
+  const bool is_degraded = disagreeing_scans_ > 0 || isVague(config, update.pose.covariance);
   return is_degraded ? TrackerState::kDegraded : TrackerState::kTracking;
 }
 
 TrackerUpdate TrackMemory::report(const TrackingContext& context, const TrackerInput& input,
                                   const UncertainPose2& pose, const ScanAgreement& agreement) {
+  const world::Room& room = context.map.rooms()[room_];
   TrackerUpdate update;
   update.stamp = input.scan.stamp;
   update.pose = pose;
   update.T_map_odom = pose.mean * input.T_odom_base.inverse();
-  update.state = judge(context, pose, agreement);
+  update.agreement = agreement;
+  update.is_outside = room.distance(pose.mean.translation()) > kRooms.door_reach;
   update.quality = agreement.quality();
-  update.room = context.map.rooms()[room_].name;
+  update.state = judge(context, update);
+  update.room = room.name;
   return update;
 }
 

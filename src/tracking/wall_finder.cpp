@@ -98,7 +98,7 @@ std::vector<WallFit> WallFinder::find(const PoseFilter& predicted, const world::
   Walls walls;
   for (const world::WallIndex& index : indices) walls.push_back(&map.wall(index));
   const auto gate = [&](const PoseFilter& filter) {
-    return gateWalls(gate_, walls, wall_.position_sigma, filter.pose(), sweep.points);
+    return gateWalls(gate_, walls, wall_.position_sigma, filter.assumedPose(), sweep.points);
   };
   const std::vector<GatedWall> first = gate(predicted);
   const PoseFilter refined = refineByHough(predicted, walls, first);

@@ -86,7 +86,7 @@ TEST_F(PlainTrackerTest, AThresholdAddsToTheStandardDeviations) {
     const TrackerUpdate update = step(tracker, truth, truth);
     const Eigen::Vector3d told = update.pose.covariance.diagonal().cwiseSqrt();
     const Eigen::Vector3d kept = tracker.pose().covariance.diagonal().cwiseSqrt();
-    if (tracker.memory().room() == 1 && update.room == "west") {
+    if (tracker.room() == 1 && update.room == "west") {
       EXPECT_NEAR(kept[0] - told[0], context_.config.threshold_position_sigma, 1e-12);
       EXPECT_NEAR(kept[2] - told[2], context_.config.threshold_heading_sigma, 1e-12);
       return;

@@ -121,11 +121,13 @@ TEST_F(RoomTrackerTest, ADoorAddsTheThresholdsUncertainty) {
   TrackerConfig config = exactMap();
   config.neighbours = false;
   Pose2 truth(2.9, 0.0, 0.0);
-  RoomTracker tracker = trackerAt(truth, config);
+  const TrackingContext context{config, rooms_.map};
+  PoseTrack track(context, {truth, Eigen::Vector3d(0.01, 0.01, 0.003).asDiagonal()}, 0);
   double largest = 0.0;
   double settled = 1.0;
   for (int i = 0; i < 20; ++i) {
-    const auto update = step(tracker, truth, truth);
+    const scan::Scan scan = rooms_.look(truth, i);
+    const auto update = track.update(context, {scan, truth, {}});
     // The scan after the change of room sees wider gates.
     for (const auto& wall : update->walls)
       largest = std::max(largest, i > 4 ? wall.gate.opening : 0.0);

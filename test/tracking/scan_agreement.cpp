@@ -67,6 +67,30 @@ TEST(ScanAgreement, NoWallInSightIsQualityZeroWithoutEvidence) {
   EXPECT_EQ(agreement.quality(), 0.0);
 }
 
+TEST(ScanAgreement, WhatTheMapDoesNotTellSaysNothingForAPoseOrAgainstIt) {
+  test::SimulatedRooms rooms(kRoom);
+  const auto geometry = rooms.look({}, 1).geometry();
+  ScanAgreement agreement;
+  agreement.on_wall = 90;
+  agreement.occluded = 20;
+  agreement.looked_at = 360;
+  ScanAgreement with_unjudged = agreement;
+  with_unjudged.unjudged = 250;
+  EXPECT_DOUBLE_EQ(logLikelihood(agreement, *geometry, 0.8),
+                   logLikelihood(with_unjudged, *geometry, 0.8));
+  EXPECT_GT(logLikelihood(agreement, *geometry, 0.8), 0.0) << "just any other pose has 0";
+}
+
+TEST(ScanAgreement, FurnitureSpeaksAgainstAPoseOnlyWhereRoomsAreBare) {
+  test::SimulatedRooms rooms(kRoom);
+  const auto geometry = rooms.look({}, 1).geometry();
+  ScanAgreement agreement;
+  agreement.occluded = 100;
+  agreement.looked_at = 360;
+  EXPECT_NEAR(logLikelihood(agreement, *geometry, 0.6), 0.0, 1e-9);
+  EXPECT_LT(logLikelihood(agreement, *geometry, 0.85), -0.1);
+}
+
 const char* const kSuite = R"(
 rooms:
   hall: {size: [6.0, 4.0]}

@@ -74,7 +74,7 @@ struct InputConfig {
 /// features: {absence: 2.0}               # lines::FeatureTrackerConfig
 /// rooms:                                 # RoomsConfig; left out: no room tracker
 ///   map: rooms.yaml                      # relative to this file
-///   initial_pose: [0.0, 0.0, 0.0]        # m, m, rad
+///   initial_pose: [0.0, 0.0, 0.0]        # m, m, rad; without it the map is searched
 ///   tracker: {neighbours: true}
 /// carrier: ../carriers/body_worn.yaml    # settings of leans, floor and odometry
 /// odometry: {max_gap: 1.0}               # ScanOdometryConfig; goes before the carrier's file.

@@ -28,7 +28,9 @@ class PlainTracker {
   /// Adds to the standard deviations (jensfelt section 5.2: by hand) [m, rad].
   void inflate(double position_sigma, double heading_sigma);
   geometry::UncertainPose2 pose() const { return filter_.pose(); }
-  TrackMemory& memory() { return memory_; }
+  std::size_t room() const { return memory_.room(); }
+  void setRoom(std::size_t room) { memory_.setRoom(room); }
+  void restartClock() { memory_.restartClock(); }
 
  private:
   PlainFilter filter_;

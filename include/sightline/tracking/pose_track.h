@@ -22,10 +22,13 @@ class PoseTrack {
     PoseFilter filter;
     std::vector<WallUpdate> walls;
     ScanAgreement agreement;
+    double log_posterior = 0.0;  ///< up to a constant: prior, beams and walls
   };
   /// Moves with the odometry to the stamp of a scan.
   void predict(const TrackingContext& context, const TrackerInput& input);
-  /// The scan as predicted, or as after a slip of the wheels where that agrees better.
+  /// The scan as predicted; where that does not agree, the best of that, of the motion before
+  /// having gone on whatever the wheels say, of a slip of the wheels, of walls close to where they
+  /// are expected alone, and of no wall at all being what it was taken for.
   Explanation explain(const TrackingContext& context, const TrackerInput& input) const;
   /// Takes an explanation for the truth, and goes into the next room where it leads there.
   TrackerUpdate commit(const TrackingContext& context, const TrackerInput& input,
@@ -36,14 +39,29 @@ class PoseTrack {
   /// Adds an independent error of these standard deviations [m, rad].
   void inflate(double position_sigma, double heading_sigma);
   geometry::UncertainPose2 pose() const { return filter_.pose(); }
+  std::size_t room() const { return memory_.room(); }
+  /// Share of the beams that have met walls lately: how much stands in the rooms.
+  double usualHits() const { return usual_hits_; }
+  void setUsualHits(double share) { usual_hits_ = share; }
   TrackMemory& memory() { return memory_; }
 
  private:
-  Explanation explainFrom(const PoseFilter& prior, const TrackingContext& context,
-                          const TrackerInput& input, const Sweep& sweep) const;
+  // Walls are looked for as far as one filter leaves open, and correct the other.
+  Explanation explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
+                          const TrackingContext& context, const TrackerInput& input,
+                          const Sweep& sweep) const;
+  Explanation withoutWalls(const Explanation& taken, const TrackingContext& context,
+                           const TrackerInput& input) const;
+  void learnHits(const ScanAgreement& agreement);
+  void judge(const TrackingContext& context, const TrackerInput& input,
+             Explanation& explanation) const;
 
   PoseFilter filter_;
+  std::optional<PoseFilter> coasting_;          // as if the motion before had gone on
+  std::optional<geometry::Pose2> before_;       // pose after the last scan
+  std::optional<geometry::Pose2> last_motion_;  // from the last scan but one to the last
   TrackMemory memory_;
+  double usual_hits_ = kUsualHits;
 };
 
 }  // namespace sightline::tracking

@@ -2,12 +2,14 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "sightline/geometry/pose2.h"
 #include "sightline/scan/scan.h"
 #include "sightline/tracking/plain_tracker.h"
-#include "sightline/tracking/pose_track.h"
+#include "sightline/tracking/rival_tracks.h"
 #include "sightline/tracking/tracker_config.h"
 #include "sightline/tracking/tracker_update.h"
 #include "sightline/tracking/tracking_context.h"
@@ -17,8 +19,8 @@ namespace sightline::tracking {
 
 /// Tracks the pose of a robot against the walls of the room it is in (jensfelt section 4):
 /// prediction from odometry, a validation gate and a range-weighted Hough transform for each wall,
-/// line fits, sequential Kalman updates, change of room at doors. By one of two methods, PoseTrack
-/// or PlainTracker.
+/// line fits, sequential Kalman updates, change of room at doors. By one of two methods:
+/// RivalTracks, which needs no start pose, or PlainTracker, which does.
 ///
 /// Not thread-safe. Estimates stay finite whatever comes in.
 class RoomTracker {
@@ -29,8 +31,12 @@ class RoomTracker {
   /// Changes settings and keeps the pose; another method starts from it. Throws config::Error if
   /// they are out of range.
   void configure(const TrackerConfig& config);
-  /// Starts, or starts again, at a pose. The room is the one the position lies in, or the nearest.
+  /// Starts, or starts again, near a pose; method full searches the map where it is vague. The room
+  /// is the one the position lies in, or the nearest.
   void setPose(const geometry::UncertainPose2& T_map_base);
+  /// Forgets where the robot is and searches the whole map; false by the method plain, which
+  /// cannot.
+  bool relocalise();
   /// Adds to the uncertainty by hand [m, rad]: method full an independent error, method plain to
   /// the standard deviation.
   void inflate(double position_sigma, double heading_sigma);
@@ -46,20 +52,25 @@ class RoomTracker {
   void restartClock();
 
   /// Takes one scan, with the sensor's motion and its noise filled in, and the odometry at its
-  /// stamp. Scans of several sensors may come in turn. Nothing before the first pose, and nothing
-  /// for a scan older than the last one used.
+  /// stamp. Scans of several sensors may come in turn. Nothing before a pose has been given or
+  /// claimed, and nothing for a scan older than the last one used.
   std::optional<TrackerUpdate> update(const scan::Scan& scan, const geometry::Pose2& T_odom_base,
                                       const geometry::Pose2& T_base_sensor);
 
-  /// Whether it has been given a pose.
-  bool hasPose() const { return !std::holds_alternative<std::monostate>(method_); }
+  /// Whether a pose has been given, or found and claimed.
+  bool hasPose() const;
+  /// All that is held possible: the published pose, then the most probable; nothing by the method
+  /// plain.
+  std::vector<RivalPose> rivals() const;
   const world::RoomMap& map() const { return context_.map; }
 
  private:
   void start(const geometry::UncertainPose2& T_map_base, std::size_t room);
+  void startAnywhere();
+  std::optional<std::pair<geometry::UncertainPose2, std::size_t>> poseAndRoom() const;
 
   TrackingContext context_;
-  std::variant<std::monostate, PoseTrack, PlainTracker> method_;
+  std::variant<std::monostate, RivalTracks, PlainTracker> method_;  // none: plain, without a pose
 };
 
 }  // namespace sightline::tracking

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sightline/geometry/pose2.h"
+#include "sightline/tracking/scan_agreement.h"
 #include "sightline/tracking/wall_fit.h"
 
 namespace sightline::tracking {
@@ -17,6 +18,13 @@ enum class TrackerState : std::uint8_t {
   kLost = 3
 };
 
+/// Another explanation of what was seen than the pose that is published.
+struct RivalPose {
+  geometry::UncertainPose2 pose;  ///< T_map_base at the stamp
+  std::size_t room = 0;
+  double probability = 0.0;  ///< posterior, among the published pose and all its rivals
+};
+
 /// Effect of one scan on the pose.
 struct TrackerUpdate {
   std::int64_t stamp = 0;         ///< of the scan, ns
@@ -25,10 +33,13 @@ struct TrackerUpdate {
   double odometry_scale = 1.0;
   double odometry_scale_sigma = 0.0;
   TrackerState state = TrackerState::kInitialising;
-  double quality = 0.0;  ///< [0, 1], see TrackerStatus.msg
+  double quality = 0.0;  ///< probability that the pose is right, see TrackerStatus.msg
   bool covariance_valid = false;
   std::string room;
   std::vector<WallUpdate> walls;
+  bool is_outside = false;        ///< whether the pose lies out of its room, past any doorway
+  ScanAgreement agreement;        ///< of the scan with what is seen from the pose
+  std::vector<RivalPose> rivals;  ///< most probable first
 };
 
 }  // namespace sightline::tracking

@@ -49,8 +49,7 @@ class TrackMemory {
   bool changeRoom(const world::RoomMap& map, const Eigen::Vector2d& position_map);
 
  private:
-  TrackerState judge(const TrackingContext& context, const geometry::UncertainPose2& pose,
-                     const ScanAgreement& agreement);
+  TrackerState judge(const TrackingContext& context, const TrackerUpdate& update);
 
   std::size_t room_;
   std::optional<geometry::Pose2> T_odom_base_;  // at the last scan
@@ -62,6 +61,9 @@ class TrackMemory {
 ScanAgreement agreementAt(const TrackingContext& context, const TrackerInput& input,
                           const geometry::Pose2& T_map_base, std::size_t room,
                           world::RoomView::Doors doors);
+
+/// Whether a covariance of the pose is too large for tracking to be called anything but degraded.
+bool isVague(const TrackerConfig& config, const Eigen::Matrix3d& covariance);
 
 /// Fewer beams than this say nothing about whether the room fits.
 constexpr std::size_t kLeastEvidence = 20;

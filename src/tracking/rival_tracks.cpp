@@ -1,0 +1,293 @@
+#include "sightline/tracking/rival_tracks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+#include "sightline/tracking/relocaliser.h"
+
+namespace sightline::tracking {
+
+namespace {
+
+using geometry::Pose2;
+using geometry::UncertainPose2;
+
+constexpr struct {
+  // A start vaguer than this is searched for [m, rad].
+  double vague_position = 1.0;
+  double vague_heading = 0.5;
+  // Log odds: a pose given by hand is wrong once in a hundred times; a robot that was tracked is
+  // pushed or turned more often than it is carried away.
+  double wrong_start = -4.6;
+  double pushed = -6.0;
+  double carried = -9.2;
+  double push_reach = 0.75;     // [m]
+  double slip = 0.3;            // [m]
+  double slip_heading = 0.2;    // [rad]
+  double found_position = 0.1;  // sigma of a pose that was found [m, rad]
+  double found_heading = 0.03;
+  int search_again = 16;       // scans at most, where the robot stands
+  double as_given = 14.2;      // of chi-square with 3 degrees of freedom, 99.7 %
+  double beyond_doubt = 0.99;  // several views that speak for a pose
+  double hopeless = 0.1;
+  double believed = 2.0;  // log odds of a start
+} kRivals;
+
+UncertainPose2 uncertain(const Pose2& pose, double position, double heading) {
+  const Eigen::Array3d sigmas(position, position, heading);
+  return {pose, sigmas.square().matrix().asDiagonal()};
+}
+
+bool isVagueStart(const UncertainPose2& start) {
+  const Eigen::Vector3d sigma = start.covariance.diagonal().cwiseSqrt();
+  return std::max(sigma.x(), sigma.y()) > kRivals.vague_position ||
+         sigma.z() > kRivals.vague_heading;
+}
+
+}  // namespace
+
+RivalTracks::RivalTracks(const TrackingContext& context, const UncertainPose2& start,
+                         std::size_t room) {
+  start_ = start;
+  if (isVagueStart(start)) return;
+  Hypothesis given{PoseTrack(context, start, room), PoseBelief(kRivals.believed), {}, 0.0, 0.0, {}};
+  given.is_published = given.is_trusted = true;
+  hypotheses_.push_back(std::move(given));
+  is_started_ = is_claimed_ = true;
+}
+
+std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
+                                                 const TrackerInput& input) {
+  const bool is_older = newest_ && input.scan.stamp < *newest_;
+  if (is_older || input.scan.beams() == 0) return std::nullopt;
+  newest_ = input.scan.stamp;
+  move(context, input);
+  ++scans_since_search_;
+  if (isInDoubt()) look(context, input);
+  hypotheses_ = thinnedOut(std::move(hypotheses_), is_confirmed_);
+  settle();
+  return is_started_ ? std::optional(report(context)) : std::nullopt;
+}
+
+// Each hypothesis goes with the odometry and takes the scan.
+void RivalTracks::move(const TrackingContext& context, const TrackerInput& input) {
+  way_.add(input.T_odom_base);
+  for (Hypothesis& hypothesis : hypotheses_) {
+    hypothesis.way.add(input.T_odom_base);
+    const auto update = hypothesis.track.update(context, input);
+    if (!update) continue;
+    hypothesis.update = *update;
+    hypothesis.belief.take(update->agreement, *input.scan.geometry(), update->is_outside,
+                           input.T_odom_base);
+  }
+}
+
+// Compares the explanations of a scan that says something new; of one from the same place less and
+// less often.
+void RivalTracks::look(const TrackingContext& context, const TrackerInput& input) {
+  const bool is_new = keys_.isNew(input);
+  if (!is_new && scans_since_search_ < search_again_) return;
+  search_again_ = is_new ? 1 : std::min(2 * search_again_, kRivals.search_again);
+  keys_.add(input);
+  weigh(input, is_new);
+  if (isToBeSearched()) search(context, input);
+}
+
+void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {
+  for (Hypothesis& hypothesis : hypotheses_) {
+    const double log_likelihood =
+        logLikelihood(hypothesis.update.agreement, *input.scan.geometry(), usual_hits_);
+    hypothesis.log_posterior += log_likelihood - (is_new_key ? 0.0 : hypothesis.last_key);
+    hypothesis.last_key = log_likelihood;
+  }
+}
+
+void RivalTracks::search(const TrackingContext& context, const TrackerInput& input) {
+  scans_since_search_ = 0;
+  std::vector<Hypothesis> found;
+  for (const PoseCandidate& candidate : relocalise(context.map, input.scan, input.T_base_sensor)) {
+    const auto is_known = [&](const Hypothesis& known) {
+      return areOne(known.track.pose().mean, candidate.T_map_base);
+    };
+    if (std::any_of(hypotheses_.begin(), hypotheses_.end(), is_known)) continue;
+    const auto start =
+        uncertain(candidate.T_map_base, kRivals.found_position, kRivals.found_heading);
+    Hypothesis rival{PoseTrack(context, start, candidate.room), PoseBelief(0.0), {}, 0.0, 0.0, {}};
+    rival.track.setUsualHits(usual_hits_);
+    const auto update = rival.track.update(context, input);
+    if (!update) continue;
+    rival.update = *update;
+    rival.belief.take(update->agreement, *input.scan.geometry(), update->is_outside,
+                      input.T_odom_base);
+    rival.way.add(input.T_odom_base);
+    rival.last_key = logLikelihood(update->agreement, *input.scan.geometry(), usual_hits_);
+    rival.log_posterior = rival.last_key + logPriorOf(context, update->pose.mean);
+    rival.is_trusted = isTrusted(update->pose.mean);
+    found.push_back(std::move(rival));
+  }
+  for (Hypothesis& rival : found) hypotheses_.push_back(std::move(rival));
+  is_checked_ = true;
+}
+
+// Whether a pose that was found is the given one, as far as that was said to be known, or differs
+// from the published one by no more than a slip of the wheels.
+bool RivalTracks::isTrusted(const Pose2& T_map_base) const {
+  if (!is_claimed_ || hypotheses_.empty()) return false;
+  if (!is_checked_) return start_ && mahalanobis(T_map_base) < kRivals.as_given;
+  const Pose2 off = geometry::between(hypotheses_.front().track.pose().mean, T_map_base);
+  return off.translation().norm() < kRivals.slip && std::abs(off.theta()) < kRivals.slip_heading;
+}
+
+double RivalTracks::mahalanobis(const Pose2& T_map_base) const {
+  Eigen::Vector3d off = T_map_base.coordinates() - start_->mean.coordinates();
+  off[2] = geometry::wrapAngle(off[2]);
+  return off.dot(start_->covariance.inverse() * off);
+}
+
+// Prior of a pose that turned up by search and the evidence of the scans before this one: the robot
+// has come there as the odometry says, or from where another hypothesis has it, pushed or carried.
+double RivalTracks::logPriorOf(const TrackingContext& context, const Pose2& T_map_base) const {
+  double prior = -std::numeric_limits<double>::infinity();
+  if (!is_started_ || !is_checked_) {
+    const double given = start_ ? -0.5 * mahalanobis(T_map_base) : 0.0;
+    const double least = is_started_ ? kRivals.wrong_start : kRivals.carried;
+    prior =
+        std::max(least, given) + keys_.logLikelihoodBefore(context.map, T_map_base, usual_hits_);
+    if (is_started_) return prior;
+  }
+  for (const Hypothesis& other : hypotheses_) {
+    const Eigen::Vector2d position = other.track.pose().mean.translation();
+    const bool is_near = (position - T_map_base.translation()).norm() < kRivals.push_reach;
+    const double jump = is_near ? kRivals.pushed : kRivals.carried;
+    prior = std::max(prior, other.log_posterior - other.last_key + jump);
+  }
+  return prior;
+}
+
+// Whether the rest of the map has to be looked at.
+bool RivalTracks::isToBeSearched() const {
+  if (!is_claimed_ || !is_checked_ || hypotheses_.empty()) return true;
+  return hypotheses_.front().belief.probability() < kSure;
+}
+
+bool RivalTracks::isInDoubt() const {
+  return isToBeSearched() || hypotheses_.size() != 1;
+}
+
+// What spoke against a pose that had been certain was a flaw of the map, where all that is seen on
+// the way from there speaks for it again.
+void RivalTracks::dismissRivals() {
+  const bool is_sure = hypotheses_.front().belief.probability() >= kRivals.beyond_doubt;
+  if (!is_confirmed_ || !is_claimed_ || !is_sure) return;
+  hypotheses_.erase(hypotheses_.begin() + 1, hypotheses_.end());
+}
+
+void RivalTracks::settle() {
+  if (hypotheses_.empty()) return;
+  if (is_confirmed_) {
+    takeOverIfCertain();
+    dismissRivals();
+  } else if (!hypotheses_.front().is_published) {
+    publish(0);
+  }
+  if (!is_claimed_ || !is_confirmed_) claimIfCertain();
+  if (isInDoubt()) return;
+  keys_.clear();
+  search_again_ = 1;
+  usual_hits_ = hypotheses_.front().track.usualHits();
+  hypotheses_.front().log_posterior = hypotheses_.front().last_key = 0.0;
+}
+
+// A pose that differs by more than a slip of the wheels has to be claimed anew.
+void RivalTracks::publish(std::size_t index) {
+  std::rotate(hypotheses_.begin(), hypotheses_.begin() + static_cast<std::ptrdiff_t>(index),
+              hypotheses_.begin() + static_cast<std::ptrdiff_t>(index) + 1);
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_published = false;
+  hypotheses_.front().is_published = true;
+  if (!is_claimed_ || hypotheses_.front().is_trusted) return;
+  way_.restart();
+  is_claimed_ = false;
+}
+
+// A pose that was tracked through thick and thin gives way to another only where scans speak
+// against it and the other is certain; one elsewhere in the map has to prove itself on the way, one
+// that the robot has been pushed to has not.
+void RivalTracks::takeOverIfCertain() {
+  const PoseBelief& belief = hypotheses_.front().belief;
+  if (!belief.isContradicted() || hypotheses_.size() < 2) return;
+  const auto by_posterior = [](const Hypothesis& a, const Hypothesis& b) {
+    return a.log_posterior < b.log_posterior;
+  };
+  const auto rival = std::max_element(hypotheses_.begin() + 1, hypotheses_.end(), by_posterior);
+  if (!isCertain(hypotheses_, *rival)) return;
+  const Pose2& published = hypotheses_.front().track.pose().mean;
+  const double distance = (rival->track.pose().mean.translation() - published.translation()).norm();
+  const bool is_proven = rival->way.isEnough() && belief.probability() < kRivals.hopeless;
+  if (distance >= kRivals.push_reach && !is_proven) return;
+  publish(static_cast<std::size_t>(rival - hypotheses_.begin()));
+}
+
+void RivalTracks::claimIfCertain() {
+  if (!isCertain(hypotheses_, hypotheses_.front()) || !way_.isEnough()) return;
+  is_claimed_ = is_started_ = is_confirmed_ = true;
+  start_.reset();
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_trusted = hypothesis.is_published;
+}
+
+TrackerState RivalTracks::stateOf(const TrackingContext& context, double quality) const {
+  const TrackerUpdate& update = hypotheses_.front().update;
+  if (update.state == TrackerState::kLost) return TrackerState::kLost;
+  const bool is_flagged =
+      !is_claimed_ || quality < kSure || isVague(context.config, update.pose.covariance);
+  return is_flagged ? TrackerState::kDegraded : TrackerState::kTracking;
+}
+
+TrackerUpdate RivalTracks::report(const TrackingContext& context) {
+  const Hypothesis& published = hypotheses_.front();
+  TrackerUpdate update = published.update;
+  update.quality = published.belief.probability() * probabilityOf(hypotheses_, published);
+  update.state = stateOf(context, update.quality);
+  update.covariance_valid =
+      update.state != TrackerState::kLost && update.quality >= kRivals.hopeless;
+  update.rivals = rivals();
+  if (!update.rivals.empty()) update.rivals.erase(update.rivals.begin());
+  return update;
+}
+
+void RivalTracks::inflate(double position_sigma, double heading_sigma) {
+  for (Hypothesis& each : hypotheses_) each.track.inflate(position_sigma, heading_sigma);
+}
+
+void RivalTracks::setRoom(std::size_t room) {
+  if (!hypotheses_.empty()) hypotheses_.front().track.memory().setRoom(room);
+}
+
+void RivalTracks::restartClock() {
+  for (Hypothesis& each : hypotheses_) each.track.memory().restartClock();
+  keys_.clear();
+  way_.forgetLast();
+  newest_.reset();
+}
+
+std::optional<UncertainPose2> RivalTracks::pose() const {
+  if (!is_started_ || hypotheses_.empty()) return std::nullopt;
+  return hypotheses_.front().track.pose();
+}
+
+std::optional<std::size_t> RivalTracks::room() const {
+  if (!is_started_ || hypotheses_.empty()) return std::nullopt;
+  return hypotheses_.front().track.room();
+}
+
+std::vector<RivalPose> RivalTracks::rivals() const {
+  std::vector<RivalPose> all;
+  for (const Hypothesis& each : hypotheses_) {
+    all.push_back({each.track.pose(), each.track.room(), probabilityOf(hypotheses_, each)});
+  }
+  return all;
+}
+
+}  // namespace sightline::tracking
