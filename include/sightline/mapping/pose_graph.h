@@ -32,6 +32,6 @@ struct GraphSolution {
 /// stays as it is.
 GraphSolution solvePoseGraph(const std::vector<KeyScan>& keys,
                              const std::vector<Relation>& relations,
-                             std::vector<geometry::Pose2> poses);
+                             const std::vector<geometry::Pose2>& poses);
 
 }  // namespace sightline::mapping

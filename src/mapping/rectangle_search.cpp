@@ -1,0 +1,292 @@
+#include "sightline/mapping/rectangle_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sightline::mapping {
+
+namespace {
+
+constexpr struct {
+  double reach = 10.0;         // from a place to a side that is begun with [m]
+  double window = 4.0;         // on either side of a place in which walls speak for a side [m]
+  double least_wall = 0.3;     // of such a side [m]
+  std::size_t most_sides = 7;  // to each way
+  double least_size = 0.8;     // of a room [m]
+  double far = 40.0;           // that a side is moved at most [m]
+  std::size_t climbed = 3;     // best combinations of sides that are improved
+  double behind = 0.45;        // free floor this far behind a wall makes it a divider [m]
+  double least_score = 0.3;
+  double step = 0.9;  // between places that a search starts from [m]
+} kSearch{};
+
+int& sideOf(CellBox& box, int side) {
+  return side == 0 ? box.x0 : side == 1 ? box.y0 : side == 2 ? box.x1 : box.y1;
+}
+
+}  // namespace
+
+RectangleSearch::RectangleSearch(const FacingImages& images, const DescriptionWeights& weights)
+    : images_(images), weights_(weights) {
+  used_.assign(static_cast<std::size_t>(images.width()) * static_cast<std::size_t>(images.height()),
+               0);
+  sumSides();
+  sumArea();
+}
+
+// A side that faces +x is the line before the box's x0: a column, whose sums run along y.
+void RectangleSearch::sumSides() {
+  for (int f = 0; f < kFacings; ++f) {
+    const bool is_column = f % 2 == 0;
+    const int lines = is_column ? images_.width() : images_.height();
+    const int length = is_column ? images_.height() : images_.width();
+    for (LineSums* sums :
+         {&sides_[static_cast<std::size_t>(f)], &lengths_[static_cast<std::size_t>(f)]}) {
+      sums->length = length;
+      sums->sums.reserve(static_cast<std::size_t>(lines) * (static_cast<std::size_t>(length) + 1));
+    }
+    for (int line = 0; line < lines; ++line) {
+      double gain = 0.0;
+      double wall = 0.0;
+      sides_[static_cast<std::size_t>(f)].sums.push_back(0.0F);
+      lengths_[static_cast<std::size_t>(f)].sums.push_back(0.0F);
+      for (int i = 0; i < length; ++i) {
+        const int x = is_column ? line : i;
+        const int y = is_column ? i : line;
+        gain += images_.cell() * sideGain(f, x, y);
+        wall += images_.isWall(f, x, y) ? images_.cell() : 0.0;
+        sides_[static_cast<std::size_t>(f)].sums.push_back(static_cast<float>(gain));
+        lengths_[static_cast<std::size_t>(f)].sums.push_back(static_cast<float>(wall));
+      }
+    }
+  }
+}
+
+double RectangleSearch::sideGain(int facing, int x, int y) const {
+  const int dx = facing % 2 == 0 ? 1 : 0;
+  const int dy = 1 - dx;
+  for (const int i : {0, -1, 1}) {
+    if (!images_.isInside(x + i * dx, y + i * dy)) continue;
+    if (images_.isWall(facing, x + i * dx, y + i * dy)) return i == 0 ? 1.0 : 0.8;
+  }
+  if (images_.isFree(x, y)) return -weights_.open;
+  return -weights_.unseen;
+}
+
+void RectangleSearch::sumArea() {
+  const auto width = static_cast<std::size_t>(images_.width());
+  area_.assign((width + 1) * (static_cast<std::size_t>(images_.height()) + 1), 0.0);
+  for (int y = 0; y < images_.height(); ++y) {
+    double row = 0.0;
+    for (int x = 0; x < images_.width(); ++x) {
+      row += cellGain(x, y);
+      const std::size_t above =
+          static_cast<std::size_t>(y) * (width + 1) + static_cast<std::size_t>(x) + 1;
+      area_[above + width + 1] = area_[above] + row;
+    }
+  }
+}
+
+double RectangleSearch::cellGain(int x, int y) const {
+  const double cell = images_.cell();
+  const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(images_.width()) +
+                         static_cast<std::size_t>(x);
+  double gain = 0.0;
+  if (images_.isFree(x, y)) gain += weights_.free_area;
+  if (!images_.isKnown(x, y)) gain -= weights_.unseen_area;
+  if (used_[at] != 0) gain -= weights_.used_area;
+  gain *= cell * cell;
+  if (isDivider(x, y)) gain -= weights_.divider * cell;
+  return gain;
+}
+
+bool RectangleSearch::isDivider(int x, int y) const {
+  const int reach = static_cast<int>(kSearch.behind / images_.cell());
+  for (int f = 0; f < kFacings; ++f) {
+    if (!images_.isWall(f, x, y)) continue;
+    const int dx = f == 0 ? -1 : f == 2 ? 1 : 0;
+    const int dy = f == 1 ? -1 : f == 3 ? 1 : 0;
+    for (int i = 2; i <= reach; ++i) {
+      const int bx = x + i * dx;
+      const int by = y + i * dy;
+      if (images_.isInside(bx, by) && images_.isFree(bx, by)) return true;
+    }
+  }
+  return false;
+}
+
+double RectangleSearch::area(const CellBox& box) const {
+  const auto at = [&](int x, int y) {
+    return area_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(images_.width()) + 1) +
+                 static_cast<std::size_t>(x)];
+  };
+  return at(box.x1, box.y1) - at(box.x0, box.y1) - at(box.x1, box.y0) + at(box.x0, box.y0);
+}
+
+// The lines of its sides lie just outside.
+bool RectangleSearch::fits(const CellBox& box) const {
+  const int least = static_cast<int>(kSearch.least_size / images_.cell());
+  return box.x0 > 0 && box.y0 > 0 && box.x1 < images_.width() && box.y1 < images_.height() &&
+         box.x1 - box.x0 >= least && box.y1 - box.y0 >= least;
+}
+
+double RectangleSearch::score(const CellBox& box) const {
+  return sides_[0].between(box.x0 - 1, box.y0, box.y1) +
+         sides_[1].between(box.y0 - 1, box.x0, box.x1) + sides_[2].between(box.x1, box.y0, box.y1) +
+         sides_[3].between(box.y1, box.x0, box.x1) + area(box) - weights_.room;
+}
+
+// Lines beyond a place where much wall faces it, nearest first.
+std::vector<int> RectangleSearch::sidesOf(int facing, int x, int y) const {
+  const bool is_column = facing % 2 == 0;
+  const LineSums& sums = lengths_[static_cast<std::size_t>(facing)];
+  const int here = is_column ? x : y;
+  const int across = is_column ? y : x;
+  const int window = static_cast<int>(kSearch.window / images_.cell());
+  const int from = std::max(0, across - window);
+  const int to = std::min(sums.length, across + window);
+  const int lines = is_column ? images_.width() : images_.height();
+  const int step = facing < 2 ? -1 : 1;
+  const int reach = static_cast<int>(kSearch.reach / images_.cell());
+  std::vector<std::pair<double, int>> peaks;
+  for (int i = 1; i < reach; ++i) {
+    const int line = here + i * step;
+    if (line < 1 || line + 1 >= lines) break;
+    const double wall = sums.between(line, from, to);
+    if (wall < kSearch.least_wall || wall < sums.between(line - 1, from, to) ||
+        wall <= sums.between(line + 1, from, to)) {
+      continue;
+    }
+    peaks.emplace_back(-wall, line);
+  }
+  std::sort(peaks.begin(), peaks.end());
+  if (peaks.size() > kSearch.most_sides) peaks.resize(kSearch.most_sides);
+  std::vector<int> found;
+  for (const auto& [wall, line] : peaks) found.push_back(facing < 2 ? line + 1 : line);
+  if (found.empty()) found.push_back(here + step * static_cast<int>(1.0 / images_.cell()));
+  return found;
+}
+
+RectangleSearch::Candidate RectangleSearch::best(const Eigen::Vector2d& place) const {
+  const int x = static_cast<int>(place.x());
+  const int y = static_cast<int>(place.y());
+  std::array<std::vector<int>, kFacings> lines;
+  for (int f = 0; f < kFacings; ++f) lines[static_cast<std::size_t>(f)] = sidesOf(f, x, y);
+  std::vector<Candidate> all;
+  for (const int x0 : lines[0]) {
+    for (const int y0 : lines[1]) {
+      for (const int x1 : lines[2]) {
+        for (const int y1 : lines[3]) {
+          const CellBox box{x0, y0, x1, y1};
+          if (fits(box)) all.push_back({box, score(box)});
+        }
+      }
+    }
+  }
+  if (all.empty()) return {{}, -1e9};
+  const auto better = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
+  const std::size_t kept = std::min(all.size(), kSearch.climbed);
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end(),
+                    better);
+  all.resize(kept);
+  for (Candidate& candidate : all) climb(candidate);
+  const Candidate whole = *std::min_element(all.begin(), all.end(), better);
+  return split(whole, place);
+}
+
+void RectangleSearch::climb(Candidate& candidate) const {
+  for (int round = 0; round < 8; ++round) {
+    bool moved = false;
+    for (int side = 0; side < 4; ++side) moved = moveSide(candidate, side) || moved;
+    if (!moved) return;
+  }
+}
+
+bool RectangleSearch::moveSide(Candidate& candidate, int side) const {
+  const int reach = static_cast<int>(kSearch.far / images_.cell());
+  Candidate best = candidate;
+  for (int i = -reach; i <= reach; ++i) {
+    CellBox box = candidate.box;
+    sideOf(box, side) += i;
+    if (!fits(box)) continue;
+    const double here = score(box);
+    if (here > best.score + 1e-6) best = {box, here};
+  }
+  const bool moved = best.score > candidate.score;
+  candidate = best;
+  return moved;
+}
+
+// Part of a rectangle that holds the place, where two parts explain more than the whole.
+RectangleSearch::Candidate RectangleSearch::split(const Candidate& whole,
+                                                  const Eigen::Vector2d& place) const {
+  double most = whole.score;
+  Candidate part = whole;
+  for (const int axis : {0, 1}) {
+    const int from = axis == 0 ? whole.box.x0 : whole.box.y0;
+    const int to = axis == 0 ? whole.box.x1 : whole.box.y1;
+    for (int cut = from; cut < to; ++cut) {
+      for (const int gap : {2, 3, 4, 6, 8}) {
+        Candidate low = whole;
+        Candidate high = whole;
+        sideOf(low.box, axis + 2) = cut;
+        sideOf(high.box, axis) = cut + gap;
+        if (!fits(low.box) || !fits(high.box)) continue;
+        low.score = score(low.box);
+        high.score = score(high.box);
+        if (low.score + high.score <= most) continue;
+        most = low.score + high.score;
+        part = place[axis] < cut + 0.5 * gap ? low : high;
+      }
+    }
+  }
+  if (most <= whole.score) return whole;
+  climb(part);
+  return part.box.contains(place) ? split(part, place) : part;
+}
+
+void RectangleSearch::take(const CellBox& box) {
+  for (int y = box.y0; y < box.y1; ++y) {
+    for (int x = box.x0; x < box.x1; ++x) {
+      used_[static_cast<std::size_t>(y) * static_cast<std::size_t>(images_.width()) +
+            static_cast<std::size_t>(x)] = 1;
+    }
+  }
+  sumArea();
+}
+
+std::vector<CellBox> RectangleSearch::find(const std::vector<Eigen::Vector2d>& places) {
+  struct Seed {
+    Eigen::Vector2d place;
+    Candidate best;
+    bool is_known = false;
+  };
+  std::vector<Seed> seeds;
+  for (const Eigen::Vector2d& place : places) {
+    const bool is_new = std::none_of(seeds.begin(), seeds.end(), [&](const Seed& seed) {
+      return (seed.place - place).norm() * images_.cell() < kSearch.step;
+    });
+    if (is_new) seeds.push_back({place, {}});
+  }
+  std::vector<CellBox> rooms;
+  while (!seeds.empty()) {
+    for (Seed& seed : seeds) {
+      if (!seed.is_known) seed.best = best(seed.place);
+      seed.is_known = true;
+    }
+    const auto leader =
+        std::max_element(seeds.begin(), seeds.end(),
+                         [](const Seed& a, const Seed& b) { return a.best.score < b.best.score; });
+    if (leader->best.score < kSearch.least_score) break;
+    const CellBox room = leader->best.box;
+    rooms.push_back(room);
+    take(room);
+    seeds.erase(std::remove_if(seeds.begin(), seeds.end(),
+                               [&](const Seed& seed) { return room.contains(seed.place); }),
+                seeds.end());
+    for (Seed& seed : seeds) seed.is_known = seed.is_known && !seed.best.box.overlaps(room);
+  }
+  return rooms;
+}
+
+}  // namespace sightline::mapping

@@ -1,0 +1,112 @@
+#include "sightline/mapping/room_fitter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "sightline/mapping/rectangle_search.h"
+#include "sightline/mapping/wall_adjustment.h"
+
+namespace sightline::mapping {
+
+namespace {
+
+using geometry::Pose2;
+
+constexpr struct {
+  double corridor = 4.0;         // times as long as wide
+  double corridor_length = 5.0;  // [m]
+} kRooms{};
+
+std::vector<RoomOutline> searchRooms(const std::vector<KeyScan>& keys,
+                                     const std::vector<Pose2>& poses) {
+  const FacingImages images(keys, poses, mainDirection(keys, poses));
+  std::vector<Eigen::Vector2d> places;
+  for (const Pose2& pose : poses) places.push_back(images.toImage(pose.translation()));
+  std::vector<RoomOutline> rooms;
+  for (const CellBox& box : RectangleSearch(images, {}).find(places)) {
+    const Eigen::Vector2d low(box.x0, box.y0);
+    const Eigen::Vector2d high(box.x1, box.y1);
+    rooms.push_back(rectangleOutline(images.toMap(0.5 * (low + high)), images.turn(),
+                                     images.cell() * (high - low)));
+  }
+  return rooms;
+}
+
+// In the order in which the path enters them.
+void sortByPath(std::vector<RoomOutline>& rooms, const std::vector<geometry::StampedPose2>& path) {
+  std::vector<RoomOutline> sorted;
+  std::vector<bool> taken(rooms.size(), false);
+  for (const geometry::StampedPose2& point : path) {
+    for (std::size_t r = 0; r < rooms.size(); ++r) {
+      if (taken[r] || !rooms[r].contains(point.pose.translation())) continue;
+      taken[r] = true;
+      sorted.push_back(rooms[r]);
+    }
+  }
+  for (std::size_t r = 0; r < rooms.size(); ++r) {
+    if (!taken[r]) sorted.push_back(rooms[r]);
+  }
+  rooms = std::move(sorted);
+}
+
+void nameRooms(std::vector<RoomOutline>& rooms) {
+  int corridors = 0;
+  int others = 0;
+  for (RoomOutline& room : rooms) {
+    const double a = room.side(0).length();
+    const double b = room.side(1).length();
+    const bool is_corridor = std::max(a, b) > kRooms.corridor_length &&
+                             std::max(a, b) > kRooms.corridor * std::min(a, b);
+    room.name =
+        is_corridor ? fmt::format("corridor_{}", ++corridors) : fmt::format("room_{}", ++others);
+  }
+}
+
+double shareInside(const std::vector<geometry::StampedPose2>& path,
+                   const std::vector<RoomOutline>& rooms) {
+  const auto is_inside = [&](const geometry::StampedPose2& point) {
+    return std::any_of(rooms.begin(), rooms.end(), [&](const RoomOutline& room) {
+      return room.contains(point.pose.translation());
+    });
+  };
+  const auto count = std::count_if(path.begin(), path.end(), is_inside);
+  return path.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(path.size());
+}
+
+}  // namespace
+
+FittedRooms fitRooms(const Survey& survey, const Progress& progress) {
+  FittedRooms fitted;
+  const auto& keys = survey.keys();
+  const auto part = [&](double from, double to) -> Progress {
+    return [=](double share) {
+      if (progress) progress(from + (to - from) * share);
+    };
+  };
+  fitted.path = PathAdjuster(keys, part(0.0, 0.7)).adjust();
+  if (keys.empty()) return fitted;
+  fitted.rooms = searchRooms(keys, fitted.path.keys);
+  part(0.7, 1.0)(0.3);
+  adjustWalls(keys, fitted.path, fitted.rooms);
+  part(0.7, 1.0)(0.8);
+  fitted.poses = posesOf(survey.path(), keys, fitted.path.keys);
+  sortByPath(fitted.rooms, fitted.poses);
+  nameRooms(fitted.rooms);
+  const auto evidence = gatherEvidence(keys, fitted.path.keys, fitted.rooms);
+  for (std::size_t r = 0; r < fitted.rooms.size(); ++r) {
+    for (std::size_t i = 0; i < fitted.rooms[r].sides.size(); ++i) {
+      fitted.rooms[r].spans[i] = spansOf(evidence[r][i], fitted.rooms[r].side(i).length());
+    }
+  }
+  FoundDoors found = findDoors(crossingsOf(fitted.poses, fitted.rooms), fitted.rooms, evidence);
+  fitted.doors = std::move(found.doors);
+  fitted.missing_doors = std::move(found.missing);
+  fitted.inside = shareInside(fitted.poses, fitted.rooms);
+  part(0.7, 1.0)(1.0);
+  return fitted;
+}
+
+}  // namespace sightline::mapping

@@ -1,0 +1,286 @@
+#include "sightline/mapping/wall_adjustment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <ceres/ceres.h>
+
+#include "path_problem.h"
+#include "pose_factors.h"
+
+namespace sightline::mapping {
+
+namespace {
+
+using geometry::Pose2;
+
+constexpr struct {
+  double facing = 0.94;  // least cosine between the normals of a point and of the side
+  double gates[3] = {0.15, 0.1, 0.06};  // distance from the side, round by round [m]
+  double overshoot = 0.02;              // of a point past the end of a side [m]
+  std::size_t fewest = 5;               // points of a sighting
+  double shortest = 0.15;               // [m]
+  // What a sighting of any number of points is wrong by: surfaces are no planes [m].
+  double roughness = 0.006;
+  double square_sigma = 0.006;  // of the angle between neighbours [rad]
+  double prior_sigma = 0.1;     // of a side that nobody saw, about where it is [m, rad]
+  double loss = 2.0;
+} kWalls{};
+
+/// What a key scan sees of a side: the points' middle, and what lies one standard deviation to
+/// either side of it, both on the line that fits them.
+struct SideSighting {
+  std::size_t key;
+  std::size_t room;
+  std::size_t side;
+  Eigen::Vector2d ends_base[2];
+  double sigma;  // of either end across the side [m]
+};
+
+// Sums over points of a key scan on a side.
+struct PointSums {
+  double weight = 0.0;
+  double count = 0.0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+
+  void add(const Eigen::Vector2d& p, double variance) {
+    weight += 1.0 / variance;
+    count += 1.0;
+    sum += p;
+    squares += p * p.transpose();
+  }
+};
+
+/// Distance of two points of a key scan from a side.
+class SideFactor {
+ public:
+  SideFactor(const SideSighting& sighting, const Eigen::Vector2d& anchor)
+      : sighting_(sighting), anchor_(anchor) {}
+  template <class T>
+  bool operator()(const T* pose, const T* side, T* residual) const {
+    using std::cos;
+    using std::sin;
+    const T c = cos(pose[2]);
+    const T s = sin(pose[2]);
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector2d& p = sighting_.ends_base[i];
+      const T x = pose[0] + c * p.x() - s * p.y() - anchor_.x();
+      const T y = pose[1] + s * p.x() + c * p.y() - anchor_.y();
+      residual[i] = (cos(side[1]) * x + sin(side[1]) * y - side[0]) / sighting_.sigma;
+    }
+    return true;
+  }
+
+ private:
+  SideSighting sighting_;
+  Eigen::Vector2d anchor_;
+};
+
+/// Angle between neighbouring sides, expected to be what it is nearest to of the right ones.
+class SquareFactor {
+ public:
+  template <class T>
+  bool operator()(const T* a, const T* b, T* residual) const {
+    residual[0] = wrapped(b[1] - a[1] - T(0.5 * geometry::kPi)) / kWalls.square_sigma;
+    return true;
+  }
+};
+
+/// Sightings of all sides from all key scans.
+class SightingFinder {
+ public:
+  SightingFinder(const std::vector<RoomOutline>& rooms, double gate) : gate_(gate) {
+    for (std::size_t r = 0; r < rooms.size(); ++r) {
+      for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
+        const geometry::Segment side = rooms[r].side(i);
+        targets_.push_back({r, i, side.start, side.leftNormal(), side.direction(), side.length()});
+      }
+    }
+  }
+
+  void find(std::size_t number, const KeyScan& key, const Pose2& pose,
+            std::vector<SideSighting>& sightings) const {
+    const Eigen::Matrix2d rotation = pose.rotation();
+    std::vector<PointSums> sums(targets_.size());
+    for (const auto& point : key.surfaces.points) {
+      if (!point.hasNormal()) continue;
+      const Eigen::Vector2d place = rotation * point.position + pose.translation();
+      if (const auto at = nearest(place, rotation * point.normal)) {
+        sums[*at].add(point.position, point.variance);
+      }
+    }
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      if (auto sighting = conclude(sums[i])) {
+        sighting->key = number;
+        sighting->room = targets_[i].room;
+        sighting->side = targets_[i].side;
+        sightings.push_back(*sighting);
+      }
+    }
+  }
+
+ private:
+  struct Target {
+    std::size_t room;
+    std::size_t side;
+    Eigen::Vector2d start;
+    Eigen::Vector2d normal;
+    Eigen::Vector2d direction;
+    double length;
+  };
+
+  std::optional<std::size_t> nearest(const Eigen::Vector2d& place,
+                                     const Eigen::Vector2d& normal) const {
+    std::optional<std::size_t> best;
+    double least = gate_;
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      const Target& target = targets_[i];
+      const Eigen::Vector2d off = place - target.start;
+      const double distance = std::abs(target.normal.dot(off));
+      if (distance >= least || target.normal.dot(normal) < kWalls.facing) continue;
+      const double along = target.direction.dot(off);
+      if (along < -kWalls.overshoot || along > target.length + kWalls.overshoot) continue;
+      least = distance;
+      best = i;
+    }
+    return best;
+  }
+
+  static std::optional<SideSighting> conclude(const PointSums& sums) {
+    if (sums.count < static_cast<double>(kWalls.fewest)) return std::nullopt;
+    const Eigen::Vector2d mean = sums.sum / sums.count;
+    const Eigen::Matrix2d scatter = sums.squares / sums.count - mean * mean.transpose();
+    const double turn = 0.5 * std::atan2(2.0 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
+    const Eigen::Vector2d along(std::cos(turn), std::sin(turn));
+    const double spread = std::sqrt(std::max(0.0, along.dot(scatter * along)));
+    if (spread * std::sqrt(12.0) < kWalls.shortest) return std::nullopt;
+    const double sigma = std::sqrt(2.0 / sums.weight + kWalls.roughness * kWalls.roughness);
+    return SideSighting{0, 0, 0, {mean - spread * along, mean + spread * along}, sigma};
+  }
+
+  double gate_;
+  std::vector<Target> targets_;
+};
+
+class WallProblem {
+ public:
+  WallProblem(const std::vector<KeyScan>& keys, const AdjustedPath& path,
+              const std::vector<RoomOutline>& rooms)
+      : path_(keys, path.keys), rooms_(rooms) {
+    path_.addSteps();
+    for (const Relation& relation : path.relations) path_.add(relation);
+    for (const RoomOutline& room : rooms) addRoom(room);
+  }
+
+  void add(const SideSighting& sighting) {
+    seen_[sighting.room][sighting.side] = true;
+    path_.problem().AddResidualBlock(new ceres::AutoDiffCostFunction<SideFactor, 2, 3, 2>(
+                                         new SideFactor(sighting, rooms_[sighting.room].anchor)),
+                                     new ceres::CauchyLoss(kWalls.loss), path_.pose(sighting.key),
+                                     values_[sighting.room][sighting.side].data());
+  }
+
+  void solve() { path_.solve(); }
+
+  void store(AdjustedPath& path, std::vector<RoomOutline>& rooms) const {
+    path.keys = path_.poses();
+    path.wheel_scale = path_.wheelScale();
+    for (std::size_t r = 0; r < rooms.size(); ++r) {
+      for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
+        SideLine& side = rooms[r].sides[i];
+        side.distance = values_[r][i][0];
+        side.angle = geometry::wrapAngle(values_[r][i][1]);
+        side.is_seen = seen_[r][i];
+      }
+    }
+  }
+
+  void storeCovariances(std::vector<RoomOutline>& rooms) {
+    ceres::Covariance::Options options;
+    options.algorithm_type = ceres::SPARSE_QR;
+    ceres::Covariance covariance(options);
+    std::vector<std::pair<const double*, const double*>> blocks;
+    for (const auto& room : values_) {
+      for (const auto& side : room) blocks.emplace_back(side.data(), side.data());
+    }
+    if (!covariance.Compute(blocks, &path_.problem())) return;
+    for (std::size_t r = 0; r < rooms.size(); ++r) {
+      for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
+        Eigen::Matrix<double, 2, 2, Eigen::RowMajor> of_side;
+        covariance.GetCovarianceBlock(values_[r][i].data(), values_[r][i].data(), of_side.data());
+        rooms[r].sides[i].covariance = aboutMiddle(rooms[r], i, of_side);
+      }
+    }
+  }
+
+ private:
+  // The lines' places; those of sides that nobody saw stay about where they are.
+  void addRoom(const RoomOutline& room) {
+    std::vector<std::array<double, 2>> values;
+    for (const SideLine& side : room.sides) values.push_back({side.distance, side.angle});
+    values_.push_back(std::move(values));
+    seen_.emplace_back(room.sides.size(), false);
+    auto& kept = values_.back();
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Eigen::Vector2d before(kept[i][0], kept[i][1]);
+      path_.problem().AddResidualBlock(
+          new ceres::AutoDiffCostFunction<SidePrior, 2, 2>(new SidePrior(before)), nullptr,
+          kept[i].data());
+    }
+    if (kept.size() != 4) return;
+    for (std::size_t i = 0; i < 4; ++i) {
+      path_.problem().AddResidualBlock(
+          new ceres::AutoDiffCostFunction<SquareFactor, 1, 2, 2>(new SquareFactor()),
+          new ceres::CauchyLoss(kWalls.loss), kept[i].data(), kept[(i + 1) % 4].data());
+    }
+  }
+
+  struct SidePrior {
+    explicit SidePrior(const Eigen::Vector2d& mean_) : mean(mean_) {}
+    template <class T>
+    bool operator()(const T* side, T* residual) const {
+      residual[0] = (side[0] - mean[0]) / kWalls.prior_sigma;
+      residual[1] = (side[1] - mean[1]) / kWalls.prior_sigma;
+      return true;
+    }
+    Eigen::Vector2d mean;
+  };
+
+  // From the foot of the anchor to the middle of the side.
+  static Eigen::Matrix2d aboutMiddle(const RoomOutline& room, std::size_t i,
+                                     const Eigen::Matrix2d& covariance) {
+    const geometry::Segment side = room.side(i);
+    const double lever = side.direction().dot(side.midpoint() - room.anchor);
+    Eigen::Matrix2d shift = Eigen::Matrix2d::Identity();
+    shift(0, 1) = lever;
+    return shift * covariance * shift.transpose();
+  }
+
+  PathProblem path_;
+  const std::vector<RoomOutline>& rooms_;
+  std::vector<std::vector<std::array<double, 2>>> values_;  // distance and angle, by room and side
+  std::vector<std::vector<bool>> seen_;
+};
+
+}  // namespace
+
+void adjustWalls(const std::vector<KeyScan>& keys, AdjustedPath& path,
+                 std::vector<RoomOutline>& rooms) {
+  if (rooms.empty()) return;
+  for (const double gate : kWalls.gates) {
+    std::vector<SideSighting> sightings;
+    const SightingFinder finder(rooms, gate);
+    for (std::size_t k = 0; k < keys.size(); ++k) finder.find(k, keys[k], path.keys[k], sightings);
+    const std::vector<RoomOutline> before = rooms;
+    WallProblem problem(keys, path, before);
+    for (const SideSighting& sighting : sightings) problem.add(sighting);
+    problem.solve();
+    problem.store(path, rooms);
+    if (gate == *std::rbegin(kWalls.gates)) problem.storeCovariances(rooms);
+  }
+}
+
+}  // namespace sightline::mapping
