@@ -15,10 +15,18 @@ constexpr struct {
   double least_size = 0.8;     // of a room [m]
   double far = 40.0;           // that a side is moved at most [m]
   std::size_t climbed = 3;     // best combinations of sides that are improved
-  double behind = 0.45;        // free floor this far behind a wall makes it a divider [m]
-  double least_score = 0.3;
-  double step = 0.9;  // between places that a search starts from [m]
+  double thickest = 0.3;       // wall between two rooms [m]
+  double run = 0.65;           // wall this long is more than a thing that stands about [m]
+  double run_share = 0.6;      // of that which has to be seen
+  double step = 0.9;           // between places that a search starts from [m]
 } kSearch{};
+
+// Stricter rounds first: what a clear room leaves over is described more laxly.
+constexpr DescriptionWeights kRounds[] = {
+    {0.7, 0.1, 0.12, 0.25, 2.0, 2.0, 1.0, 2.0},
+    {0.5, 0.1, 0.12, 0.2, 1.0, 2.0, 1.0, 0.5},
+    {0.3, 0.05, 0.12, 0.15, 0.5, 2.0, 0.5, -0.5},
+};
 
 int& sideOf(CellBox& box, int side) {
   return side == 0 ? box.x0 : side == 1 ? box.y0 : side == 2 ? box.x1 : box.y1;
@@ -26,12 +34,10 @@ int& sideOf(CellBox& box, int side) {
 
 }  // namespace
 
-RectangleSearch::RectangleSearch(const FacingImages& images, const DescriptionWeights& weights)
-    : images_(images), weights_(weights) {
+RectangleSearch::RectangleSearch(const FacingImages& images) : images_(images) {
   used_.assign(static_cast<std::size_t>(images.width()) * static_cast<std::size_t>(images.height()),
                0);
-  sumSides();
-  sumArea();
+  findDividers();
 }
 
 // A side that faces +x is the line before the box's x0: a column, whose sums run along y.
@@ -43,6 +49,7 @@ void RectangleSearch::sumSides() {
     for (LineSums* sums :
          {&sides_[static_cast<std::size_t>(f)], &lengths_[static_cast<std::size_t>(f)]}) {
       sums->length = length;
+      sums->sums.clear();
       sums->sums.reserve(static_cast<std::size_t>(lines) * (static_cast<std::size_t>(length) + 1));
     }
     for (int line = 0; line < lines; ++line) {
@@ -96,23 +103,50 @@ double RectangleSearch::cellGain(int x, int y) const {
   if (!images_.isKnown(x, y)) gain -= weights_.unseen_area;
   if (used_[at] != 0) gain -= weights_.used_area;
   gain *= cell * cell;
-  if (isDivider(x, y)) gain -= weights_.divider * cell;
+  gain -= weights_.divider * cell * dividers_[at];
   return gain;
 }
 
-bool RectangleSearch::isDivider(int x, int y) const {
-  const int reach = static_cast<int>(kSearch.behind / images_.cell());
-  for (int f = 0; f < kFacings; ++f) {
-    if (!images_.isWall(f, x, y)) continue;
-    const int dx = f == 0 ? -1 : f == 2 ? 1 : 0;
-    const int dy = f == 1 ? -1 : f == 3 ? 1 : 0;
-    for (int i = 2; i <= reach; ++i) {
-      const int bx = x + i * dx;
-      const int by = y + i * dy;
-      if (images_.isInside(bx, by) && images_.isFree(bx, by)) return true;
-    }
+bool RectangleSearch::hasTwoFaces(int facing, int x, int y) const {
+  if (!images_.isInside(x, y) || !images_.isWall(facing, x, y)) return false;
+  const int dx = facing == 0 ? -1 : 0;
+  const int dy = facing == 1 ? -1 : 0;
+  const int thickest = static_cast<int>(kSearch.thickest / images_.cell());
+  for (int i = 0; i <= thickest; ++i) {
+    const int bx = x + i * dx;
+    const int by = y + i * dy;
+    if (images_.isInside(bx, by) && images_.isWall(facing + 2, bx, by)) return true;
   }
   return false;
+}
+
+// Walls seen from both sides over some length: they stand between rooms.
+void RectangleSearch::findDividers() {
+  dividers_.assign(used_.size(), 0);
+  const int half = static_cast<int>(0.5 * kSearch.run / images_.cell());
+  const double least = kSearch.run_share * (2 * half + 1);
+  for (const int f : {0, 1}) {
+    std::vector<std::uint8_t> faces(used_.size(), 0);
+    std::size_t at = 0;
+    for (int y = 0; y < images_.height(); ++y) {
+      for (int x = 0; x < images_.width(); ++x) faces[at++] = hasTwoFaces(f, x, y) ? 1 : 0;
+    }
+    const std::ptrdiff_t across = f == 0 ? 1 : images_.width();
+    const std::ptrdiff_t along = f == 0 ? images_.width() : 1;
+    const auto cells = static_cast<std::ptrdiff_t>(faces.size());
+    for (std::ptrdiff_t i = 0; i < cells; ++i) {
+      if (faces[static_cast<std::size_t>(i)] == 0) continue;
+      int run = 0;
+      for (std::ptrdiff_t j = -half; j <= half; ++j) {
+        const auto is_face = [&](std::ptrdiff_t k) {
+          return k >= 0 && k < cells && faces[static_cast<std::size_t>(k)] != 0;
+        };
+        const std::ptrdiff_t k = i + j * along;
+        run += is_face(k) || is_face(k - across) || is_face(k + across) ? 1 : 0;
+      }
+      if (run >= least) ++dividers_[static_cast<std::size_t>(i)];
+    }
+  }
 }
 
 double RectangleSearch::area(const CellBox& box) const {
@@ -189,26 +223,27 @@ RectangleSearch::Candidate RectangleSearch::best(const Eigen::Vector2d& place) c
   std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end(),
                     better);
   all.resize(kept);
-  for (Candidate& candidate : all) climb(candidate);
+  for (Candidate& candidate : all) climb(candidate, place);
   const Candidate whole = *std::min_element(all.begin(), all.end(), better);
   return split(whole, place);
 }
 
-void RectangleSearch::climb(Candidate& candidate) const {
+void RectangleSearch::climb(Candidate& candidate, const Eigen::Vector2d& place) const {
   for (int round = 0; round < 8; ++round) {
     bool moved = false;
-    for (int side = 0; side < 4; ++side) moved = moveSide(candidate, side) || moved;
+    for (int side = 0; side < 4; ++side) moved = moveSide(candidate, side, place) || moved;
     if (!moved) return;
   }
 }
 
-bool RectangleSearch::moveSide(Candidate& candidate, int side) const {
+// The place stays inside.
+bool RectangleSearch::moveSide(Candidate& candidate, int side, const Eigen::Vector2d& place) const {
   const int reach = static_cast<int>(kSearch.far / images_.cell());
   Candidate best = candidate;
   for (int i = -reach; i <= reach; ++i) {
     CellBox box = candidate.box;
     sideOf(box, side) += i;
-    if (!fits(box)) continue;
+    if (!fits(box) || !box.contains(place)) continue;
     const double here = score(box);
     if (here > best.score + 1e-6) best = {box, here};
   }
@@ -241,8 +276,8 @@ RectangleSearch::Candidate RectangleSearch::split(const Candidate& whole,
     }
   }
   if (most <= whole.score) return whole;
-  climb(part);
-  return part.box.contains(place) ? split(part, place) : part;
+  if (!part.box.contains(place)) return {part.box, -1e9};
+  return split(part, place);
 }
 
 void RectangleSearch::take(const CellBox& box) {
@@ -256,6 +291,20 @@ void RectangleSearch::take(const CellBox& box) {
 }
 
 std::vector<CellBox> RectangleSearch::find(const std::vector<Eigen::Vector2d>& places) {
+  std::vector<CellBox> rooms;
+  std::vector<Eigen::Vector2d> left = places;
+  for (const DescriptionWeights& weights : kRounds) {
+    weights_ = weights;
+    sumSides();
+    sumArea();
+    searchFrom(left, rooms);
+  }
+  return rooms;
+}
+
+// Takes the best room again and again; places in it are done.
+void RectangleSearch::searchFrom(std::vector<Eigen::Vector2d>& places,
+                                 std::vector<CellBox>& rooms) {
   struct Seed {
     Eigen::Vector2d place;
     Candidate best;
@@ -268,7 +317,6 @@ std::vector<CellBox> RectangleSearch::find(const std::vector<Eigen::Vector2d>& p
     });
     if (is_new) seeds.push_back({place, {}});
   }
-  std::vector<CellBox> rooms;
   while (!seeds.empty()) {
     for (Seed& seed : seeds) {
       if (!seed.is_known) seed.best = best(seed.place);
@@ -277,16 +325,17 @@ std::vector<CellBox> RectangleSearch::find(const std::vector<Eigen::Vector2d>& p
     const auto leader =
         std::max_element(seeds.begin(), seeds.end(),
                          [](const Seed& a, const Seed& b) { return a.best.score < b.best.score; });
-    if (leader->best.score < kSearch.least_score) break;
+    if (leader->best.score < weights_.least_score) break;
     const CellBox room = leader->best.box;
     rooms.push_back(room);
     take(room);
+    const auto is_in = [&](const Eigen::Vector2d& place) { return room.contains(place); };
     seeds.erase(std::remove_if(seeds.begin(), seeds.end(),
-                               [&](const Seed& seed) { return room.contains(seed.place); }),
+                               [&](const Seed& seed) { return is_in(seed.place); }),
                 seeds.end());
+    places.erase(std::remove_if(places.begin(), places.end(), is_in), places.end());
     for (Seed& seed : seeds) seed.is_known = seed.is_known && !seed.best.box.overlaps(room);
   }
-  return rooms;
 }
 
 }  // namespace sightline::mapping

@@ -26,7 +26,7 @@ std::vector<RoomOutline> searchRooms(const std::vector<KeyScan>& keys,
   std::vector<Eigen::Vector2d> places;
   for (const Pose2& pose : poses) places.push_back(images.toImage(pose.translation()));
   std::vector<RoomOutline> rooms;
-  for (const CellBox& box : RectangleSearch(images, {}).find(places)) {
+  for (const CellBox& box : RectangleSearch(images).find(places)) {
     const Eigen::Vector2d low(box.x0, box.y0);
     const Eigen::Vector2d high(box.x1, box.y1);
     rooms.push_back(rectangleOutline(images.toMap(0.5 * (low + high)), images.turn(),

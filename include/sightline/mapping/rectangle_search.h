@@ -31,22 +31,22 @@ struct DescriptionWeights {
   double unseen = 0.1;        ///< of a metre of side that nobody saw
   double free_area = 0.12;    ///< gained by a square metre of free floor [1/m]
   double unseen_area = 0.25;  ///< lost by a square metre that nobody saw [1/m]
-  double divider = 1.5;       ///< of a metre of wall within, with free floor on both sides
+  double divider = 2.0;       ///< of a metre of wall within that is seen from both sides
   double used_area = 2.0;     ///< of a square metre that is in another room [1/m]
   double room = 1.0;          ///< of a room
+  double least_score = 0.5;   ///< of a room that is worth it
 };
 
 /// Finds rooms as rectangles: the fewest that explain the walls seen from inside, by a score that
 /// weighs walls on the sides against openings, floor within, walls within, and the number of rooms.
 class RectangleSearch {
  public:
-  RectangleSearch(const FacingImages& images, const DescriptionWeights& weights);
+  explicit RectangleSearch(const FacingImages& images);
 
   /// Rooms that together hold as many of the places as is worth it, best first.
   ///
   /// @param places  of the path, in cells
   std::vector<CellBox> find(const std::vector<Eigen::Vector2d>& places);
-  double score(const CellBox& box) const;
 
  private:
   struct Candidate {
@@ -68,15 +68,18 @@ class RectangleSearch {
   double sideGain(int facing, int x, int y) const;
   void sumArea();
   double cellGain(int x, int y) const;
-  bool isDivider(int x, int y) const;
+  void findDividers();
+  bool hasTwoFaces(int facing, int x, int y) const;
+  double score(const CellBox& box) const;
   double area(const CellBox& box) const;
   bool fits(const CellBox& box) const;
   std::vector<int> sidesOf(int facing, int x, int y) const;
   Candidate best(const Eigen::Vector2d& place) const;
-  void climb(Candidate& candidate) const;
-  bool moveSide(Candidate& candidate, int side) const;
+  void climb(Candidate& candidate, const Eigen::Vector2d& place) const;
+  bool moveSide(Candidate& candidate, int side, const Eigen::Vector2d& place) const;
   Candidate split(const Candidate& whole, const Eigen::Vector2d& place) const;
   void take(const CellBox& box);
+  void searchFrom(std::vector<Eigen::Vector2d>& places, std::vector<CellBox>& rooms);
 
   const FacingImages& images_;
   DescriptionWeights weights_;
@@ -84,6 +87,7 @@ class RectangleSearch {
   std::array<LineSums, kFacings> lengths_;  // wall alone, undilated
   std::vector<double> area_;                // integral image of what the floor gains
   std::vector<std::uint8_t> used_;
+  std::vector<std::uint8_t> dividers_;  // number of walls seen from both sides, by cell
 };
 
 }  // namespace sightline::mapping
