@@ -13,7 +13,9 @@ constexpr struct {
   double narrowest = 0.5;  // that a robot passes [m]
   double usual = 0.8;      // where no gap was seen [m]
   double least_gap = 0.6;  // of a door that was not crossed [m]
-  double most_gap = 1.6;
+  double most_gap = 1.4;
+  int least_passes = 6;  // rays through each bin of it
+  double passes_per_hit = 6.0;
   double jamb_sigma = 0.03;  // of the edge of a gap: a bin, and the door that stands there [m]
 } kDoors{};
 
@@ -96,14 +98,15 @@ bool isKnown(const std::vector<FittedDoor>& doors, const FittedDoor& door) {
                      [&](const FittedDoor& other) { return isSame(door, other); });
 }
 
-// Gaps between two walls of a side through which rays went.
+// Gaps between two walls of a side through which many rays went, and next to none ended.
 std::vector<Stretch> seenGaps(const SideEvidence& evidence) {
   std::vector<Stretch> gaps;
   std::optional<std::size_t> wall;
   bool all_open = true;
   for (std::size_t i = 0; i < evidence.bins(); ++i) {
     if (!evidence.isWall(i)) {
-      all_open = all_open && evidence.passes[i] > evidence.hits[i];
+      all_open = all_open && evidence.passes[i] >= kDoors.least_passes &&
+                 evidence.passes[i] > kDoors.passes_per_hit * evidence.hits[i];
       continue;
     }
     if (wall && i > *wall + 1 && all_open) {
@@ -114,6 +117,14 @@ std::vector<Stretch> seenGaps(const SideEvidence& evidence) {
     all_open = true;
   }
   return gaps;
+}
+
+// Whether a side has such a gap about a place.
+bool hasGap(const SideEvidence& evidence, double along) {
+  const auto gaps = seenGaps(evidence);
+  return std::any_of(gaps.begin(), gaps.end(), [&](const Stretch& gap) {
+    return gap.from < along && along < gap.to && gap.width() < kDoors.most_gap;
+  });
 }
 
 // The other room just behind a place on a side, and its side there.
@@ -139,9 +150,10 @@ void addSeenDoors(const std::vector<RoomOutline>& rooms,
         if (gap.width() < kDoors.least_gap || gap.width() > kDoors.most_gap) continue;
         const Eigen::Vector2d place = side.start + 0.5 * (gap.from + gap.to) * side.direction();
         const auto next = behind(rooms, r, place, -side.leftNormal());
-        if (!next || rooms[next->first].side(next->second).distance(place) > kDoors.thickest) {
-          continue;
-        }
+        if (!next) continue;
+        const geometry::Segment there = rooms[next->first].side(next->second);
+        if (there.distance(place) > kDoors.thickest) continue;
+        if (!hasGap(evidence[next->first][next->second], there.along(place))) continue;
         const auto door = doorAt(rooms, evidence, {r, next->first}, {i, next->second}, place);
         if (door && door->width >= kDoors.least_gap && !isKnown(found.doors, *door)) {
           found.doors.push_back(*door);

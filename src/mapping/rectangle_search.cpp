@@ -18,7 +18,15 @@ constexpr struct {
   double thickest = 0.3;       // wall between two rooms [m]
   double run = 0.65;           // wall this long is more than a thing that stands about [m]
   double run_share = 0.6;      // of that which has to be seen
-  double step = 0.9;           // between places that a search starts from [m]
+  // A wall beyond a side [m]: how far, how much of it, and at an end of the side; and its share of
+  // what the side itself shows, seen at both ends and at one.
+  double deepest = 1.0;
+  double least_outer = 0.35;
+  double end = 0.5;
+  double least_end = 0.2;
+  double share_at_both = 0.1;
+  double share_at_one = 0.3;
+  double step = 0.9;  // between places that a search starts from [m]
 } kSearch{};
 
 // Stricter rounds first: what a clear room leaves over is described more laxly.
@@ -96,8 +104,7 @@ void RectangleSearch::sumArea() {
 
 double RectangleSearch::cellGain(int x, int y) const {
   const double cell = images_.cell();
-  const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(images_.width()) +
-                         static_cast<std::size_t>(x);
+  const std::size_t at = cellAt(x, y);
   double gain = 0.0;
   if (images_.isFree(x, y)) gain += weights_.free_area;
   if (!images_.isKnown(x, y)) gain -= weights_.unseen_area;
@@ -283,8 +290,7 @@ RectangleSearch::Candidate RectangleSearch::split(const Candidate& whole,
 void RectangleSearch::take(const CellBox& box) {
   for (int y = box.y0; y < box.y1; ++y) {
     for (int x = box.x0; x < box.x1; ++x) {
-      used_[static_cast<std::size_t>(y) * static_cast<std::size_t>(images_.width()) +
-            static_cast<std::size_t>(x)] = 1;
+      used_[cellAt(x, y)] = 1;
     }
   }
   sumArea();
@@ -299,7 +305,67 @@ std::vector<CellBox> RectangleSearch::find(const std::vector<Eigen::Vector2d>& p
     sumArea();
     searchFrom(left, rooms);
   }
+  for (CellBox& room : rooms) {
+    for (int side = 0; side < 4; ++side) pushOut(room, side);
+  }
   return rooms;
+}
+
+// What a line of a side shows, cell by cell, of the wall that lies so far beyond.
+RectangleSearch::Beyond RectangleSearch::lookBeyond(const CellBox& box, int side, int far) const {
+  const bool is_column = side % 2 == 0;
+  const int outwards = side < 2 ? -1 : 1;
+  const int line = side == 0 ? box.x0 - 1 : side == 1 ? box.y0 - 1 : side == 2 ? box.x1 : box.y1;
+  const int from = is_column ? box.y0 : box.x0;
+  const int to = is_column ? box.y1 : box.x1;
+  const int end = static_cast<int>(kSearch.end / images_.cell());
+  const auto isWallAt = [&](int at, int i) {
+    for (const int near : {0, -1, 1}) {
+      const int x = is_column ? at + near : i;
+      const int y = is_column ? i : at + near;
+      if (images_.isInside(x, y) && images_.isWall(side, x, y)) return true;
+    }
+    return false;
+  };
+  Beyond beyond;
+  for (int i = from; i < to; ++i) {
+    if (isWallAt(line, i)) {
+      ++beyond.inner;
+      continue;
+    }
+    if (!isWallAt(line + far * outwards, i)) continue;
+    int free = 0;
+    for (int j = 0; j < far - 1; ++j) {
+      const int x = is_column ? line + j * outwards : i;
+      const int y = is_column ? i : line + j * outwards;
+      free += images_.isFree(x, y) && used_[cellAt(x, y)] == 0 ? 1 : 0;
+    }
+    if (free < 0.7 * (far - 1)) continue;
+    ++beyond.outer;
+    if (i < from + end) ++beyond.first;
+    if (i >= to - end) ++beyond.last;
+  }
+  return beyond;
+}
+
+// A side lies on furniture where the wall is seen beyond it, at its ends.
+void RectangleSearch::pushOut(CellBox& box, int side) const {
+  const int reach = static_cast<int>(kSearch.deepest / images_.cell());
+  const int least_end = static_cast<int>(kSearch.least_end / images_.cell());
+  int best = 0;
+  int most = static_cast<int>(kSearch.least_outer / images_.cell());
+  for (int far = 3; far <= reach; ++far) {
+    CellBox moved = box;
+    sideOf(moved, side) += side < 2 ? -far : far;
+    if (!fits(moved)) break;
+    const Beyond beyond = lookBeyond(box, side, far);
+    const int ends = (beyond.first >= least_end ? 1 : 0) + (beyond.last >= least_end ? 1 : 0);
+    const double share = ends == 2 ? kSearch.share_at_both : kSearch.share_at_one;
+    if (ends == 0 || beyond.outer < share * beyond.inner || beyond.outer <= most) continue;
+    most = beyond.outer;
+    best = far;
+  }
+  sideOf(box, side) += side < 2 ? -best : best;
 }
 
 // Takes the best room again and again; places in it are done.

@@ -18,7 +18,19 @@ using geometry::Pose2;
 constexpr struct {
   double corridor = 4.0;         // times as long as wide
   double corridor_length = 5.0;  // [m]
+  double niche = 1.6;            // area of a room that may be a doorway [m²]
+  double doorway = 1.2;          // way between two rooms through one door [m]
 } kRooms{};
+
+// Number of crossings between rooms that are too far apart for a door.
+std::size_t distances(const std::vector<RoomOutline>& rooms,
+                      const std::vector<geometry::StampedPose2>& path) {
+  const auto crossings = crossingsOf(path, rooms);
+  return static_cast<std::size_t>(
+      std::count_if(crossings.begin(), crossings.end(), [](const Crossing& crossing) {
+        return (crossing.left_map - crossing.entered_map).norm() > kRooms.doorway;
+      }));
+}
 
 std::vector<RoomOutline> searchRooms(const std::vector<KeyScan>& keys,
                                      const std::vector<Pose2>& poses) {
@@ -33,6 +45,22 @@ std::vector<RoomOutline> searchRooms(const std::vector<KeyScan>& keys,
                                      images.cell() * (high - low)));
   }
   return rooms;
+}
+
+// Leaves out rooms that are no more than the depth of a doorway: the rooms before and behind them
+// meet as well without.
+void dropNiches(std::vector<RoomOutline>& rooms, const std::vector<geometry::StampedPose2>& path) {
+  for (std::size_t r = 0; r < rooms.size();) {
+    std::vector<RoomOutline> without = rooms;
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(r));
+    const bool is_niche =
+        rooms[r].area() < kRooms.niche && distances(without, path) <= distances(rooms, path);
+    if (is_niche) {
+      rooms = std::move(without);
+    } else {
+      ++r;
+    }
+  }
 }
 
 // In the order in which the path enters them.
@@ -93,6 +121,7 @@ FittedRooms fitRooms(const Survey& survey, const Progress& progress) {
   adjustWalls(keys, fitted.path, fitted.rooms);
   part(0.7, 1.0)(0.8);
   fitted.poses = posesOf(survey.path(), keys, fitted.path.keys);
+  dropNiches(fitted.rooms, fitted.poses);
   sortByPath(fitted.rooms, fitted.poses);
   nameRooms(fitted.rooms);
   const auto evidence = gatherEvidence(keys, fitted.path.keys, fitted.rooms);

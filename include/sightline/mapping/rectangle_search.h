@@ -53,6 +53,13 @@ class RectangleSearch {
     CellBox box;
     double score;
   };
+  // Cells of a side: wall on it; wall beyond it, of that near its first and last cell.
+  struct Beyond {
+    int inner = 0;
+    int outer = 0;
+    int first = 0;
+    int last = 0;
+  };
   // Sums over a line of cells from its beginning, line by line.
   struct LineSums {
     std::vector<float> sums;
@@ -79,6 +86,12 @@ class RectangleSearch {
   bool moveSide(Candidate& candidate, int side, const Eigen::Vector2d& place) const;
   Candidate split(const Candidate& whole, const Eigen::Vector2d& place) const;
   void take(const CellBox& box);
+  Beyond lookBeyond(const CellBox& box, int side, int far) const;
+  void pushOut(CellBox& box, int side) const;
+  std::size_t cellAt(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(images_.width()) +
+           static_cast<std::size_t>(x);
+  }
   void searchFrom(std::vector<Eigen::Vector2d>& places, std::vector<CellBox>& rooms);
 
   const FacingImages& images_;
