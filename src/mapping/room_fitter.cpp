@@ -19,7 +19,10 @@ constexpr struct {
   double corridor = 4.0;         // times as long as wide
   double corridor_length = 5.0;  // [m]
   double niche = 1.6;            // area of a room that may be a doorway [m²]
-  double doorway = 1.2;          // way between two rooms through one door [m]
+  double passage_width = 0.9;    // of a room made where the path leads over a gap [m]
+  double shortest_passage = 0.6;
+  double longest_passage = 6.0;
+  double doorway = 1.2;  // way between two rooms through one door [m]
 } kRooms{};
 
 // Number of crossings between rooms that are too far apart for a door.
@@ -104,37 +107,62 @@ double shareInside(const std::vector<geometry::StampedPose2>& path,
   return path.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(path.size());
 }
 
-}  // namespace
-
-FittedRooms fitRooms(const Survey& survey, const Progress& progress) {
-  FittedRooms fitted;
-  const auto& keys = survey.keys();
-  const auto part = [&](double from, double to) -> Progress {
-    return [=](double share) {
-      if (progress) progress(from + (to - from) * share);
-    };
-  };
-  fitted.path = PathAdjuster(keys, part(0.0, 0.7)).adjust();
-  if (keys.empty()) return fitted;
-  fitted.rooms = searchRooms(keys, fitted.path.keys);
-  part(0.7, 1.0)(0.3);
-  adjustWalls(keys, fitted.path, fitted.rooms);
-  part(0.7, 1.0)(0.8);
-  fitted.poses = posesOf(survey.path(), keys, fitted.path.keys);
-  dropNiches(fitted.rooms, fitted.poses);
-  sortByPath(fitted.rooms, fitted.poses);
-  nameRooms(fitted.rooms);
+// Spans of the walls, and doors.
+void findOpenings(const std::vector<KeyScan>& keys, FittedRooms& fitted) {
   const auto evidence = gatherEvidence(keys, fitted.path.keys, fitted.rooms);
   for (std::size_t r = 0; r < fitted.rooms.size(); ++r) {
-    for (std::size_t i = 0; i < fitted.rooms[r].sides.size(); ++i) {
-      fitted.rooms[r].spans[i] = spansOf(evidence[r][i], fitted.rooms[r].side(i).length());
+    RoomOutline& room = fitted.rooms[r];
+    for (std::size_t i = 0; i < room.sides.size(); ++i) {
+      room.spans[i] = spansOf(evidence[r][i], room.side(i).length());
     }
   }
   FoundDoors found = findDoors(crossingsOf(fitted.poses, fitted.rooms), fitted.rooms, evidence);
   fitted.doors = std::move(found.doors);
   fitted.missing_doors = std::move(found.missing);
+}
+
+// A room without walls where the path leads over a gap between two rooms. Returns whether there is
+// one more.
+bool bridgeGap(const Crossing& crossing, std::vector<RoomOutline>& rooms) {
+  const Eigen::Vector2d middle = 0.5 * (crossing.left_map + crossing.entered_map);
+  if (std::any_of(rooms.begin(), rooms.end(),
+                  [&](const RoomOutline& room) { return room.contains(middle); })) {
+    return false;
+  }
+  const Eigen::Vector2d way = crossing.entered_map - crossing.left_map;
+  const double length = way.norm();
+  if (length < kRooms.shortest_passage || length > kRooms.longest_passage) return false;
+  rooms.push_back(
+      rectangleOutline(middle, std::atan2(way.y(), way.x()), {length, kRooms.passage_width}));
+  return true;
+}
+
+}  // namespace
+
+FittedRooms fitRooms(const Survey& survey, const Progress& progress) {
+  FittedRooms fitted;
+  const auto& keys = survey.keys();
+  const auto report = [&](double share) {
+    if (progress) progress(share);
+  };
+  fitted.path = PathAdjuster(keys, [&](double share) { report(0.7 * share); }).adjust();
+  if (keys.empty()) return fitted;
+  fitted.rooms = searchRooms(keys, fitted.path.keys);
+  report(0.8);
+  adjustWalls(keys, fitted.path, fitted.rooms);
+  report(0.95);
+  fitted.poses = posesOf(survey.path(), keys, fitted.path.keys);
+  dropNiches(fitted.rooms, fitted.poses);
+  findOpenings(keys, fitted);
+  bool has_bridged = false;
+  for (const Crossing& crossing : fitted.missing_doors) {
+    has_bridged = bridgeGap(crossing, fitted.rooms) || has_bridged;
+  }
+  sortByPath(fitted.rooms, fitted.poses);
+  nameRooms(fitted.rooms);
+  findOpenings(keys, fitted);
   fitted.inside = shareInside(fitted.poses, fitted.rooms);
-  part(0.7, 1.0)(1.0);
+  report(1.0);
   return fitted;
 }
 

@@ -25,7 +25,10 @@ constexpr struct {
   // What a sighting of any number of points is wrong by: surfaces are no planes [m].
   double roughness = 0.006;
   double square_sigma = 0.006;  // of the angle between neighbours [rad]
-  double prior_sigma = 0.1;     // of a side that nobody saw, about where it is [m, rad]
+  // Of a side about where it was found [m], and about the turn of its rectangle [rad]: a curved
+  // wall makes no rectangle oblique.
+  double prior_sigma = 0.1;
+  double turn_sigma = 0.01;
   double loss = 2.0;
 } kWalls{};
 
@@ -167,12 +170,13 @@ class SightingFinder {
 
 class WallProblem {
  public:
+  /// @param found  the rooms as they were found
   WallProblem(const std::vector<KeyScan>& keys, const AdjustedPath& path,
-              const std::vector<RoomOutline>& rooms)
+              const std::vector<RoomOutline>& rooms, const std::vector<RoomOutline>& found)
       : path_(keys, path.keys), rooms_(rooms) {
     path_.addSteps();
     for (const Relation& relation : path.relations) path_.add(relation);
-    for (const RoomOutline& room : rooms) addRoom(room);
+    for (std::size_t r = 0; r < rooms.size(); ++r) addRoom(rooms[r], found[r]);
   }
 
   void add(const SideSighting& sighting) {
@@ -218,14 +222,14 @@ class WallProblem {
 
  private:
   // The lines' places; those of sides that nobody saw stay about where they are.
-  void addRoom(const RoomOutline& room) {
+  void addRoom(const RoomOutline& room, const RoomOutline& found) {
     std::vector<std::array<double, 2>> values;
     for (const SideLine& side : room.sides) values.push_back({side.distance, side.angle});
     values_.push_back(std::move(values));
     seen_.emplace_back(room.sides.size(), false);
     auto& kept = values_.back();
     for (std::size_t i = 0; i < kept.size(); ++i) {
-      const Eigen::Vector2d before(kept[i][0], kept[i][1]);
+      const Eigen::Vector2d before(kept[i][0], found.sides[i].angle);
       path_.problem().AddResidualBlock(
           new ceres::AutoDiffCostFunction<SidePrior, 2, 2>(new SidePrior(before)), nullptr,
           kept[i].data());
@@ -243,7 +247,7 @@ class WallProblem {
     template <class T>
     bool operator()(const T* side, T* residual) const {
       residual[0] = (side[0] - mean[0]) / kWalls.prior_sigma;
-      residual[1] = (side[1] - mean[1]) / kWalls.prior_sigma;
+      residual[1] = wrapped(side[1] - mean[1]) / kWalls.turn_sigma;
       return true;
     }
     Eigen::Vector2d mean;
@@ -270,12 +274,13 @@ class WallProblem {
 void adjustWalls(const std::vector<KeyScan>& keys, AdjustedPath& path,
                  std::vector<RoomOutline>& rooms) {
   if (rooms.empty()) return;
+  const std::vector<RoomOutline> found = rooms;
   for (const double gate : kWalls.gates) {
     std::vector<SideSighting> sightings;
     const SightingFinder finder(rooms, gate);
     for (std::size_t k = 0; k < keys.size(); ++k) finder.find(k, keys[k], path.keys[k], sightings);
     const std::vector<RoomOutline> before = rooms;
-    WallProblem problem(keys, path, before);
+    WallProblem problem(keys, path, before, found);
     for (const SideSighting& sighting : sightings) problem.add(sighting);
     problem.solve();
     problem.store(path, rooms);

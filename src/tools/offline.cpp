@@ -1,6 +1,4 @@
 // Runs the estimators over recordings, as fast as they go.
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "program/program.h"
+#include "program/progress_bar.h"
 #include "sightline/bridge/bag_feed.h"
 #include "sightline/bridge/recorded_estimates.h"
 #include "sightline/logs/trajectory.h"
@@ -82,22 +81,6 @@ void prepareOut(const Job& job) {
   }
 }
 
-// A bar on a terminal, nothing elsewhere.
-class ProgressBar {
- public:
-  void show(double ratio) {
-    const int percent = static_cast<int>(100.0 * ratio);
-    if (!on_terminal_ || percent == shown_) return;
-    shown_ = percent;
-    const std::string done(static_cast<std::size_t>(percent / 2), '=');
-    std::fprintf(stderr, "\r[%-50s] %3d %%%s", done.c_str(), percent, percent == 100 ? "\n" : "");
-  }
-
- private:
-  bool on_terminal_ = isatty(STDERR_FILENO) == 1;
-  int shown_ = -1;
-};
-
 // The path of the whole recording, its loops closed, as map.tum.
 void writeMap(const mapping::Survey& survey, const Job& job) {
   const mapping::AdjustedPath adjusted = mapping::PathAdjuster(survey.keys(), {}).adjust();
@@ -111,7 +94,7 @@ void writeMap(const mapping::Survey& survey, const Job& job) {
 }
 
 void run(bridge::BagFeed& feed, bridge::RecordedEstimates& estimates, mapping::Survey* survey) {
-  ProgressBar bar;
+  tools::ProgressBar bar;
   bridge::BagFeed::Visitor visitor;
   visitor.scan = [&](pipeline::LocatedScan located, const ros::Time& now) {
     if (survey) survey->take(located);
