@@ -30,6 +30,9 @@ constexpr struct {
   double prior_sigma = 0.1;
   double turn_sigma = 0.01;
   double loss = 2.0;
+  // Each scan takes part in relations to several others and in walls, which count as if they were
+  // independent: by how much variances are larger.
+  double reuse = 2.0;
 } kWalls{};
 
 /// What a key scan sees of a side: the points' middle, and what lies one standard deviation to
@@ -215,7 +218,7 @@ class WallProblem {
       for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
         Eigen::Matrix<double, 2, 2, Eigen::RowMajor> of_side;
         covariance.GetCovarianceBlock(values_[r][i].data(), values_[r][i].data(), of_side.data());
-        rooms[r].sides[i].covariance = aboutMiddle(rooms[r], i, of_side);
+        rooms[r].sides[i].covariance = kWalls.reuse * aboutMiddle(rooms[r], i, of_side);
       }
     }
   }
