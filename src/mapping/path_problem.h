@@ -27,6 +27,8 @@ class PathProblem {
   double* pose(std::size_t key) { return values_[key].data(); }
   std::vector<geometry::Pose2> poses() const;
   double wheelScale() const { return scale_; }
+  std::size_t relations() const { return relations_.size(); }
+  /// Squared Mahalanobis distance of each relation.
   std::vector<double> relationCosts();
 
  private:

@@ -30,9 +30,9 @@ constexpr struct {
   double prior_sigma = 0.1;
   double turn_sigma = 0.01;
   double loss = 2.0;
-  // Each scan takes part in relations to several others and in walls, which count as if they were
-  // independent: by how much variances are larger.
-  double reuse = 2.0;
+  // Ratio of the variances to those that the residuals tell, as errors of neighbouring scans go
+  // together: by NEES on the first two floors of `scripts/bench mapping`.
+  double calibration = 0.8;
 } kWalls{};
 
 /// What a key scan sees of a side: the points' middle, and what lies one standard deviation to
@@ -184,10 +184,12 @@ class WallProblem {
 
   void add(const SideSighting& sighting) {
     seen_[sighting.room][sighting.side] = true;
-    path_.problem().AddResidualBlock(new ceres::AutoDiffCostFunction<SideFactor, 2, 3, 2>(
-                                         new SideFactor(sighting, rooms_[sighting.room].anchor)),
-                                     new ceres::CauchyLoss(kWalls.loss), path_.pose(sighting.key),
-                                     values_[sighting.room][sighting.side].data());
+    const auto block = path_.problem().AddResidualBlock(
+        new ceres::AutoDiffCostFunction<SideFactor, 2, 3, 2>(
+            new SideFactor(sighting, rooms_[sighting.room].anchor)),
+        new ceres::CauchyLoss(kWalls.loss), path_.pose(sighting.key),
+        values_[sighting.room][sighting.side].data());
+    sightings_.push_back(block);
   }
 
   void solve() { path_.solve(); }
@@ -205,7 +207,25 @@ class WallProblem {
     }
   }
 
+  // Variance of a residual that was expected to be 1: surfaces may be smoother than assumed.
+  double varianceFactor() {
+    double sum = 0.0;
+    for (const auto& block : sightings_) {
+      double cost = 0.0;
+      path_.problem().EvaluateResidualBlock(block, /*apply_loss_function=*/true, &cost, nullptr,
+                                            nullptr);
+      sum += 2.0 * cost;
+    }
+    for (const double cost : path_.relationCosts()) {
+      sum += kWalls.loss * kWalls.loss * std::log1p(cost / (kWalls.loss * kWalls.loss));
+    }
+    const std::size_t residuals = 2 * sightings_.size() + 3 * path_.relations();
+    const std::size_t unknowns = 3 * path_.poses().size() + 8 * rooms_.size();
+    return sum / static_cast<double>(residuals - std::min(unknowns, residuals / 2));
+  }
+
   void storeCovariances(std::vector<RoomOutline>& rooms) {
+    const double factor = kWalls.calibration * varianceFactor();
     ceres::Covariance::Options options;
     options.algorithm_type = ceres::SPARSE_QR;
     ceres::Covariance covariance(options);
@@ -218,7 +238,7 @@ class WallProblem {
       for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
         Eigen::Matrix<double, 2, 2, Eigen::RowMajor> of_side;
         covariance.GetCovarianceBlock(values_[r][i].data(), values_[r][i].data(), of_side.data());
-        rooms[r].sides[i].covariance = kWalls.reuse * aboutMiddle(rooms[r], i, of_side);
+        rooms[r].sides[i].covariance = factor * aboutMiddle(rooms[r], i, of_side);
       }
     }
   }
@@ -270,6 +290,7 @@ class WallProblem {
   const std::vector<RoomOutline>& rooms_;
   std::vector<std::vector<std::array<double, 2>>> values_;  // distance and angle, by room and side
   std::vector<std::vector<bool>> seen_;
+  std::vector<ceres::ResidualBlockId> sightings_;
 };
 
 }  // namespace
