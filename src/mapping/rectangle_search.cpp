@@ -12,12 +12,8 @@ constexpr struct {
   double window = 4.0;         // on either side of a place in which walls speak for a side [m]
   double least_wall = 0.3;     // of such a side [m]
   std::size_t most_sides = 7;  // to each way
-  double least_size = 0.8;     // of a room [m]
   double far = 40.0;           // that a side is moved at most [m]
   std::size_t climbed = 3;     // best combinations of sides that are improved
-  double thickest = 0.3;       // wall between two rooms [m]
-  double run = 0.65;           // wall this long is more than a thing that stands about [m]
-  double run_share = 0.6;      // of that which has to be seen
   // A wall beyond a side [m]: how far, how much of it, and at an end of the side; and its share of
   // what the side itself shows, seen at both ends and at one.
   double deepest = 1.0;
@@ -42,150 +38,14 @@ int& sideOf(CellBox& box, int side) {
 
 }  // namespace
 
-RectangleSearch::RectangleSearch(const FacingImages& images) : images_(images) {
-  used_.assign(static_cast<std::size_t>(images.width()) * static_cast<std::size_t>(images.height()),
-               0);
-  findDividers();
-}
-
-// A side that faces +x is the line before the box's x0: a column, whose sums run along y.
-void RectangleSearch::sumSides() {
-  for (int f = 0; f < kFacings; ++f) {
-    const bool is_column = f % 2 == 0;
-    const int lines = is_column ? images_.width() : images_.height();
-    const int length = is_column ? images_.height() : images_.width();
-    for (LineSums* sums :
-         {&sides_[static_cast<std::size_t>(f)], &lengths_[static_cast<std::size_t>(f)]}) {
-      sums->length = length;
-      sums->sums.clear();
-      sums->sums.reserve(static_cast<std::size_t>(lines) * (static_cast<std::size_t>(length) + 1));
-    }
-    for (int line = 0; line < lines; ++line) {
-      double gain = 0.0;
-      double wall = 0.0;
-      sides_[static_cast<std::size_t>(f)].sums.push_back(0.0F);
-      lengths_[static_cast<std::size_t>(f)].sums.push_back(0.0F);
-      for (int i = 0; i < length; ++i) {
-        const int x = is_column ? line : i;
-        const int y = is_column ? i : line;
-        gain += images_.cell() * sideGain(f, x, y);
-        wall += images_.isWall(f, x, y) ? images_.cell() : 0.0;
-        sides_[static_cast<std::size_t>(f)].sums.push_back(static_cast<float>(gain));
-        lengths_[static_cast<std::size_t>(f)].sums.push_back(static_cast<float>(wall));
-      }
-    }
-  }
-}
-
-double RectangleSearch::sideGain(int facing, int x, int y) const {
-  const int dx = facing % 2 == 0 ? 1 : 0;
-  const int dy = 1 - dx;
-  for (const int i : {0, -1, 1}) {
-    if (!images_.isInside(x + i * dx, y + i * dy)) continue;
-    if (images_.isWall(facing, x + i * dx, y + i * dy)) return i == 0 ? 1.0 : 0.8;
-  }
-  if (images_.isFree(x, y)) return -weights_.open;
-  return -weights_.unseen;
-}
-
-void RectangleSearch::sumArea() {
-  const auto width = static_cast<std::size_t>(images_.width());
-  area_.assign((width + 1) * (static_cast<std::size_t>(images_.height()) + 1), 0.0);
-  for (int y = 0; y < images_.height(); ++y) {
-    double row = 0.0;
-    for (int x = 0; x < images_.width(); ++x) {
-      row += cellGain(x, y);
-      const std::size_t above =
-          static_cast<std::size_t>(y) * (width + 1) + static_cast<std::size_t>(x) + 1;
-      area_[above + width + 1] = area_[above] + row;
-    }
-  }
-}
-
-double RectangleSearch::cellGain(int x, int y) const {
-  const double cell = images_.cell();
-  const std::size_t at = cellAt(x, y);
-  double gain = 0.0;
-  if (images_.isFree(x, y)) gain += weights_.free_area;
-  if (!images_.isKnown(x, y)) gain -= weights_.unseen_area;
-  if (used_[at] != 0) gain -= weights_.used_area;
-  gain *= cell * cell;
-  gain -= weights_.divider * cell * dividers_[at];
-  return gain;
-}
-
-bool RectangleSearch::hasTwoFaces(int facing, int x, int y) const {
-  if (!images_.isInside(x, y) || !images_.isWall(facing, x, y)) return false;
-  const int dx = facing == 0 ? -1 : 0;
-  const int dy = facing == 1 ? -1 : 0;
-  const int thickest = static_cast<int>(kSearch.thickest / images_.cell());
-  for (int i = 0; i <= thickest; ++i) {
-    const int bx = x + i * dx;
-    const int by = y + i * dy;
-    if (images_.isInside(bx, by) && images_.isWall(facing + 2, bx, by)) return true;
-  }
-  return false;
-}
-
-// Walls seen from both sides over some length: they stand between rooms.
-void RectangleSearch::findDividers() {
-  dividers_.assign(used_.size(), 0);
-  const int half = static_cast<int>(0.5 * kSearch.run / images_.cell());
-  const double least = kSearch.run_share * (2 * half + 1);
-  for (const int f : {0, 1}) {
-    std::vector<std::uint8_t> faces(used_.size(), 0);
-    std::size_t at = 0;
-    for (int y = 0; y < images_.height(); ++y) {
-      for (int x = 0; x < images_.width(); ++x) faces[at++] = hasTwoFaces(f, x, y) ? 1 : 0;
-    }
-    const std::ptrdiff_t across = f == 0 ? 1 : images_.width();
-    const std::ptrdiff_t along = f == 0 ? images_.width() : 1;
-    const auto cells = static_cast<std::ptrdiff_t>(faces.size());
-    for (std::ptrdiff_t i = 0; i < cells; ++i) {
-      if (faces[static_cast<std::size_t>(i)] == 0) continue;
-      int run = 0;
-      for (std::ptrdiff_t j = -half; j <= half; ++j) {
-        const auto is_face = [&](std::ptrdiff_t k) {
-          return k >= 0 && k < cells && faces[static_cast<std::size_t>(k)] != 0;
-        };
-        const std::ptrdiff_t k = i + j * along;
-        run += is_face(k) || is_face(k - across) || is_face(k + across) ? 1 : 0;
-      }
-      if (run >= least) ++dividers_[static_cast<std::size_t>(i)];
-    }
-  }
-}
-
-double RectangleSearch::area(const CellBox& box) const {
-  const auto at = [&](int x, int y) {
-    return area_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(images_.width()) + 1) +
-                 static_cast<std::size_t>(x)];
-  };
-  return at(box.x1, box.y1) - at(box.x0, box.y1) - at(box.x1, box.y0) + at(box.x0, box.y0);
-}
-
-// The lines of its sides lie just outside.
-bool RectangleSearch::fits(const CellBox& box) const {
-  const int least = static_cast<int>(kSearch.least_size / images_.cell());
-  return box.x0 > 0 && box.y0 > 0 && box.x1 < images_.width() && box.y1 < images_.height() &&
-         box.x1 - box.x0 >= least && box.y1 - box.y0 >= least;
-}
-
-double RectangleSearch::score(const CellBox& box) const {
-  return sides_[0].between(box.x0 - 1, box.y0, box.y1) +
-         sides_[1].between(box.y0 - 1, box.x0, box.x1) + sides_[2].between(box.x1, box.y0, box.y1) +
-         sides_[3].between(box.y1, box.x0, box.x1) + area(box) - weights_.room;
-}
-
 // Lines beyond a place where much wall faces it, nearest first.
 std::vector<int> RectangleSearch::sidesOf(int facing, int x, int y) const {
   const bool is_column = facing % 2 == 0;
-  const LineSums& sums = lengths_[static_cast<std::size_t>(facing)];
   const int here = is_column ? x : y;
   const int across = is_column ? y : x;
   const int window = static_cast<int>(kSearch.window / images_.cell());
   const int from = std::max(0, across - window);
-  const int to = std::min(sums.length, across + window);
+  const int to = std::min(is_column ? images_.height() : images_.width(), across + window);
   const int lines = is_column ? images_.width() : images_.height();
   const int step = facing < 2 ? -1 : 1;
   const int reach = static_cast<int>(kSearch.reach / images_.cell());
@@ -193,9 +53,9 @@ std::vector<int> RectangleSearch::sidesOf(int facing, int x, int y) const {
   for (int i = 1; i < reach; ++i) {
     const int line = here + i * step;
     if (line < 1 || line + 1 >= lines) break;
-    const double wall = sums.between(line, from, to);
-    if (wall < kSearch.least_wall || wall < sums.between(line - 1, from, to) ||
-        wall <= sums.between(line + 1, from, to)) {
+    const double wall = score_.wall(facing, line, from, to);
+    if (wall < kSearch.least_wall || wall < score_.wall(facing, line - 1, from, to) ||
+        wall <= score_.wall(facing, line + 1, from, to)) {
       continue;
     }
     peaks.emplace_back(-wall, line);
@@ -219,7 +79,7 @@ RectangleSearch::Candidate RectangleSearch::best(const Eigen::Vector2d& place) c
       for (const int x1 : lines[2]) {
         for (const int y1 : lines[3]) {
           const CellBox box{x0, y0, x1, y1};
-          if (fits(box)) all.push_back({box, score(box)});
+          if (score_.fits(box)) all.push_back({box, score_.of(box)});
         }
       }
     }
@@ -250,8 +110,8 @@ bool RectangleSearch::moveSide(Candidate& candidate, int side, const Eigen::Vect
   for (int i = -reach; i <= reach; ++i) {
     CellBox box = candidate.box;
     sideOf(box, side) += i;
-    if (!fits(box) || !box.contains(place)) continue;
-    const double here = score(box);
+    if (!score_.fits(box) || !box.contains(place)) continue;
+    const double here = score_.of(box);
     if (here > best.score + 1e-6) best = {box, here};
   }
   const bool moved = best.score > candidate.score;
@@ -273,9 +133,9 @@ RectangleSearch::Candidate RectangleSearch::split(const Candidate& whole,
         Candidate high = whole;
         sideOf(low.box, axis + 2) = cut;
         sideOf(high.box, axis) = cut + gap;
-        if (!fits(low.box) || !fits(high.box)) continue;
-        low.score = score(low.box);
-        high.score = score(high.box);
+        if (!score_.fits(low.box) || !score_.fits(high.box)) continue;
+        low.score = score_.of(low.box);
+        high.score = score_.of(high.box);
         if (low.score + high.score <= most) continue;
         most = low.score + high.score;
         part = place[axis] < cut + 0.5 * gap ? low : high;
@@ -287,22 +147,11 @@ RectangleSearch::Candidate RectangleSearch::split(const Candidate& whole,
   return split(part, place);
 }
 
-void RectangleSearch::take(const CellBox& box) {
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      used_[cellAt(x, y)] = 1;
-    }
-  }
-  sumArea();
-}
-
 std::vector<CellBox> RectangleSearch::find(const std::vector<Eigen::Vector2d>& places) {
   std::vector<CellBox> rooms;
   std::vector<Eigen::Vector2d> left = places;
   for (const DescriptionWeights& weights : kRounds) {
-    weights_ = weights;
-    sumSides();
-    sumArea();
+    score_.weigh(weights);
     searchFrom(left, rooms);
   }
   for (CellBox& room : rooms) {
@@ -338,7 +187,7 @@ RectangleSearch::Beyond RectangleSearch::lookBeyond(const CellBox& box, int side
     for (int j = 0; j < far - 1; ++j) {
       const int x = is_column ? line + j * outwards : i;
       const int y = is_column ? i : line + j * outwards;
-      free += images_.isFree(x, y) && used_[cellAt(x, y)] == 0 ? 1 : 0;
+      free += images_.isFree(x, y) && !score_.isUsed(x, y) ? 1 : 0;
     }
     if (free < 0.7 * (far - 1)) continue;
     ++beyond.outer;
@@ -357,7 +206,7 @@ void RectangleSearch::pushOut(CellBox& box, int side) const {
   for (int far = 3; far <= reach; ++far) {
     CellBox moved = box;
     sideOf(moved, side) += side < 2 ? -far : far;
-    if (!fits(moved)) break;
+    if (!score_.fits(moved)) break;
     const Beyond beyond = lookBeyond(box, side, far);
     const int ends = (beyond.first >= least_end ? 1 : 0) + (beyond.last >= least_end ? 1 : 0);
     const double share = ends == 2 ? kSearch.share_at_both : kSearch.share_at_one;
@@ -391,10 +240,10 @@ void RectangleSearch::searchFrom(std::vector<Eigen::Vector2d>& places,
     const auto leader =
         std::max_element(seeds.begin(), seeds.end(),
                          [](const Seed& a, const Seed& b) { return a.best.score < b.best.score; });
-    if (leader->best.score < weights_.least_score) break;
+    if (leader->best.score < score_.weights().least_score) break;
     const CellBox room = leader->best.box;
     rooms.push_back(room);
-    take(room);
+    score_.take(room);
     const auto is_in = [&](const Eigen::Vector2d& place) { return room.contains(place); };
     seeds.erase(std::remove_if(seeds.begin(), seeds.end(),
                                [&](const Seed& seed) { return is_in(seed.place); }),

@@ -9,6 +9,7 @@
 
 #include "path_problem.h"
 #include "pose_factors.h"
+#include "side_sightings.h"
 
 namespace sightline::mapping {
 
@@ -17,14 +18,8 @@ namespace {
 using geometry::Pose2;
 
 constexpr struct {
-  double facing = 0.94;  // least cosine between the normals of a point and of the side
   double gates[3] = {0.15, 0.1, 0.06};  // distance from the side, round by round [m]
-  double overshoot = 0.02;              // of a point past the end of a side [m]
-  std::size_t fewest = 5;               // points of a sighting
-  double shortest = 0.15;               // [m]
-  // What a sighting of any number of points is wrong by: surfaces are no planes [m].
-  double roughness = 0.006;
-  double square_sigma = 0.006;  // of the angle between neighbours [rad]
+  double square_sigma = 0.006;          // of the angle between neighbours [rad]
   // Of a side about where it was found [m], and about the turn of its rectangle [rad]: a curved
   // wall makes no rectangle oblique.
   double prior_sigma = 0.1;
@@ -34,31 +29,6 @@ constexpr struct {
   // together: by NEES on the first two floors of `scripts/bench mapping`.
   double calibration = 0.8;
 } kWalls{};
-
-/// What a key scan sees of a side: the points' middle, and what lies one standard deviation to
-/// either side of it, both on the line that fits them.
-struct SideSighting {
-  std::size_t key;
-  std::size_t room;
-  std::size_t side;
-  Eigen::Vector2d ends_base[2];
-  double sigma;  // of either end across the side [m]
-};
-
-// Sums over points of a key scan on a side.
-struct PointSums {
-  double weight = 0.0;
-  double count = 0.0;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-
-  void add(const Eigen::Vector2d& p, double variance) {
-    weight += 1.0 / variance;
-    count += 1.0;
-    sum += p;
-    squares += p * p.transpose();
-  }
-};
 
 /// Distance of two points of a key scan from a side.
 class SideFactor {
@@ -93,82 +63,6 @@ class SquareFactor {
     residual[0] = wrapped(b[1] - a[1] - T(0.5 * geometry::kPi)) / kWalls.square_sigma;
     return true;
   }
-};
-
-/// Sightings of all sides from all key scans.
-class SightingFinder {
- public:
-  SightingFinder(const std::vector<RoomOutline>& rooms, double gate) : gate_(gate) {
-    for (std::size_t r = 0; r < rooms.size(); ++r) {
-      for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
-        const geometry::Segment side = rooms[r].side(i);
-        targets_.push_back({r, i, side.start, side.leftNormal(), side.direction(), side.length()});
-      }
-    }
-  }
-
-  void find(std::size_t number, const KeyScan& key, const Pose2& pose,
-            std::vector<SideSighting>& sightings) const {
-    const Eigen::Matrix2d rotation = pose.rotation();
-    std::vector<PointSums> sums(targets_.size());
-    for (const auto& point : key.surfaces.points) {
-      if (!point.hasNormal()) continue;
-      const Eigen::Vector2d place = rotation * point.position + pose.translation();
-      if (const auto at = nearest(place, rotation * point.normal)) {
-        sums[*at].add(point.position, point.variance);
-      }
-    }
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
-      if (auto sighting = conclude(sums[i])) {
-        sighting->key = number;
-        sighting->room = targets_[i].room;
-        sighting->side = targets_[i].side;
-        sightings.push_back(*sighting);
-      }
-    }
-  }
-
- private:
-  struct Target {
-    std::size_t room;
-    std::size_t side;
-    Eigen::Vector2d start;
-    Eigen::Vector2d normal;
-    Eigen::Vector2d direction;
-    double length;
-  };
-
-  std::optional<std::size_t> nearest(const Eigen::Vector2d& place,
-                                     const Eigen::Vector2d& normal) const {
-    std::optional<std::size_t> best;
-    double least = gate_;
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
-      const Target& target = targets_[i];
-      const Eigen::Vector2d off = place - target.start;
-      const double distance = std::abs(target.normal.dot(off));
-      if (distance >= least || target.normal.dot(normal) < kWalls.facing) continue;
-      const double along = target.direction.dot(off);
-      if (along < -kWalls.overshoot || along > target.length + kWalls.overshoot) continue;
-      least = distance;
-      best = i;
-    }
-    return best;
-  }
-
-  static std::optional<SideSighting> conclude(const PointSums& sums) {
-    if (sums.count < static_cast<double>(kWalls.fewest)) return std::nullopt;
-    const Eigen::Vector2d mean = sums.sum / sums.count;
-    const Eigen::Matrix2d scatter = sums.squares / sums.count - mean * mean.transpose();
-    const double turn = 0.5 * std::atan2(2.0 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
-    const Eigen::Vector2d along(std::cos(turn), std::sin(turn));
-    const double spread = std::sqrt(std::max(0.0, along.dot(scatter * along)));
-    if (spread * std::sqrt(12.0) < kWalls.shortest) return std::nullopt;
-    const double sigma = std::sqrt(2.0 / sums.weight + kWalls.roughness * kWalls.roughness);
-    return SideSighting{0, 0, 0, {mean - spread * along, mean + spread * along}, sigma};
-  }
-
-  double gate_;
-  std::vector<Target> targets_;
 };
 
 class WallProblem {

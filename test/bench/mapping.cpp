@@ -13,6 +13,7 @@
 // mapping.seconds, mapping.peak_mb: reading it and fitting rooms, processor time.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -119,9 +120,10 @@ void printFloors(const std::string& world, bool is_furnished, std::uint64_t seed
 // usage: bench_mapping [FLOORS]      floors of either kind, 20 by default
 int main(int argc, char** argv) {
   const auto floors = static_cast<std::uint64_t>(argc > 1 ? std::atoi(argv[1]) : 20);
-  bench::printRecordings();
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // it takes minutes
   printTwoRooms(std::min<std::uint64_t>(floors, 5));
   printFloors("bare", /*is_furnished=*/false, floors);
   printFloors("furnished", /*is_furnished=*/true, floors);
+  bench::printRecordings();
   return 0;
 }

@@ -34,7 +34,7 @@ class FitRoomsTest : public testing::Test {
 };
 
 TEST_F(FitRoomsTest, FitsTheRoomThatWasDriven) {
-  const auto result = fit(test::carmenRoomLog(150));
+  const auto result = fit(test::carmenRoomLog(80));
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("rooms: 1, with 0 doors"));
   EXPECT_THAT(result.output, HasSubstr("the rooms keep their own recording"));
@@ -49,10 +49,17 @@ TEST_F(FitRoomsTest, FitsTheRoomThatWasDriven) {
 }
 
 TEST_F(FitRoomsTest, TheSameRecordingGivesTheSameFile) {
-  ASSERT_EQ(fit(test::carmenRoomLog(150), "first.yaml").status, 0);
-  ASSERT_EQ(fit(test::carmenRoomLog(150), "second.yaml").status, 0);
+  ASSERT_EQ(fit(test::carmenRoomLog(80), "first.yaml").status, 0);
+  ASSERT_EQ(fit(test::carmenRoomLog(80), "second.yaml").status, 0);
   EXPECT_EQ(contentOf(folder_.path("first.yaml")), contentOf(folder_.path("second.yaml")));
   EXPECT_EQ(contentOf(folder_.path("first.png")), contentOf(folder_.path("second.png")));
+}
+
+// After 18 s the robot has left the room, and nothing is seen of what was.
+TEST_F(FitRoomsTest, PartsThatNothingJoinsAreNoRooms) {
+  const auto result = fit(test::carmenRoomLog(150));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.output, HasSubstr("it falls into 2 parts that nothing joins: the scans from"));
 }
 
 TEST_F(FitRoomsTest, OneScanIsNoDrive) {
@@ -72,7 +79,7 @@ TEST_F(FitRoomsTest, ARobotThatStandsSeesNoRooms) {
 }
 
 TEST_F(FitRoomsTest, AFolderThatIsNotThereIsNamed) {
-  const auto result = fit(test::carmenRoomLog(150), "nowhere/rooms.yaml");
+  const auto result = fit(test::carmenRoomLog(80), "nowhere/rooms.yaml");
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.output, HasSubstr("nowhere/rooms.yaml: cannot be written"));
 }

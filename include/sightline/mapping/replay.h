@@ -39,7 +39,7 @@ class Replay {
   void finish();
 
   std::size_t scans() const { return scans_; }
-  /// Share of the scans within 0.25 m and 5° of the path.
+  /// Share of the scans within 0.5 m and 10° of the path.
   double rightShare() const;
   double meanDifference() const;  ///< of position, of the scans within [m]
   double maxDifference() const { return most_; }
