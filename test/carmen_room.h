@@ -38,14 +38,18 @@ inline std::string poseText(const geometry::Pose2& pose) {
   return fmt::format("{:.6f} {:.6f} {:.6f}", pose.x(), pose.y(), pose.theta());
 }
 
-/// One FLASER line of 181 beams.
-inline std::string flaserLine(double time) {
+/// One FLASER line of 181 beams, taken where the robot is at a time, and stamped with another.
+inline std::string flaserLineAt(double time, double stamp) {
   const geometry::Pose2 robot = carmenRobotAt(time);
   std::string line = "FLASER 181";
   for (int i = 0; i < 181; ++i) {
     line += fmt::format(" {:.3f}", distanceToWall(robot, geometry::radians(i - 90.0)));
   }
-  return line + fmt::format(" {0} {0} {1:.6f} host {1:.6f}\n", poseText(robot), 100.0 + time);
+  return line + fmt::format(" {0} {0} {1:.6f} host {1:.6f}\n", poseText(robot), 100.0 + stamp);
+}
+
+inline std::string flaserLine(double time) {
+  return flaserLineAt(time, time);
 }
 
 inline std::string odomLine(double time) {

@@ -1,6 +1,4 @@
 // Runs the estimators over recordings, as fast as they go.
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -11,8 +9,11 @@
 #include <vector>
 
 #include "program/program.h"
+#include "program/progress_bar.h"
 #include "sightline/bridge/bag_feed.h"
 #include "sightline/bridge/recorded_estimates.h"
+#include "sightline/logs/trajectory.h"
+#include "sightline/mapping/path_adjuster.h"
 
 namespace {
 
@@ -27,11 +28,20 @@ struct Job {
   bool no_wheels = false;
 };
 
-pipeline::EstimatorSet nodesOf(const std::string& list) {
+// Estimators that run scan by scan, and what is made of the whole recording.
+struct Nodes {
   pipeline::EstimatorSet set;
+  bool map = false;
+
+  bool any() const { return set.lines || set.rooms || set.odometry || map; }
+};
+
+Nodes nodesOf(const std::string& list) {
+  Nodes nodes;
+  pipeline::EstimatorSet& set = nodes.set;
   std::istringstream stream(list);
   for (std::string node; std::getline(stream, node, ',');) {
-    if (node == "targets" || node == "map") {
+    if (node == "targets") {
       throw tools::UsageError("--nodes: " + node + " is not part of this version");
     }
     if (node == "lines") {
@@ -40,24 +50,25 @@ pipeline::EstimatorSet nodesOf(const std::string& list) {
       set.rooms = true;
     } else if (node == "odometry") {
       set.odometry = true;
+    } else if (node == "map") {
+      nodes.map = true;
     } else {
       throw tools::UsageError("--nodes: no node " + node);
     }
   }
-  set.features = set.lines;
-  if (!set.lines && !set.rooms && !set.odometry) throw tools::UsageError("--nodes: none given");
-  return set;
+  nodes.set.features = nodes.set.lines;
+  if (!nodes.any()) throw tools::UsageError("--nodes: none given");
+  return nodes;
 }
 
-pipeline::EstimatorSet nodesOf(const Job& job, const pipeline::EstimatorsConfig& config) {
-  const pipeline::EstimatorSet by_settings{true, config.rooms.has_value(),
-                                           config.odometry.has_value(), true};
-  const pipeline::EstimatorSet set = job.nodes ? nodesOf(*job.nodes) : by_settings;
-  if (set.rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
-  if (set.rooms && job.no_wheels) {
+Nodes nodesOf(const Job& job, const pipeline::EstimatorsConfig& config) {
+  const Nodes by_settings{{true, config.rooms.has_value(), config.odometry.has_value(), true}};
+  const Nodes nodes = job.nodes ? nodesOf(*job.nodes) : by_settings;
+  if (nodes.set.rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
+  if (nodes.set.rooms && job.no_wheels) {
     throw tools::UsageError("--no-wheels leaves rooms without odometry");
   }
-  return set;
+  return nodes;
 }
 
 // Makes the folder, unless a bag to read is where the bag to write would go.
@@ -71,26 +82,23 @@ void prepareOut(const Job& job) {
   }
 }
 
-// A bar on a terminal, nothing elsewhere.
-class ProgressBar {
- public:
-  void show(double ratio) {
-    const int percent = static_cast<int>(100.0 * ratio);
-    if (!on_terminal_ || percent == shown_) return;
-    shown_ = percent;
-    const std::string done(static_cast<std::size_t>(percent / 2), '=');
-    std::fprintf(stderr, "\r[%-50s] %3d %%%s", done.c_str(), percent, percent == 100 ? "\n" : "");
+// The path of the whole recording, its loops closed, as map.tum.
+void writeMap(const mapping::Survey& survey, const Job& job) {
+  const mapping::AdjustedPath adjusted = mapping::PathAdjuster(survey.keys(), {}).adjust();
+  logs::TrajectoryWriter writer((std::filesystem::path(job.out) / "map.tum").string());
+  for (const auto& pose : mapping::posesOf(survey.path(), survey.keys(), adjusted.keys)) {
+    writer.add(pose.stamp, pose.pose);
   }
+  writer.close();
+  std::printf("map: %zu scans, %zu key scans, %zu loops closed, %zu refused\n",
+              survey.path().size(), survey.keys().size(), adjusted.loops, adjusted.refused);
+}
 
- private:
-  bool on_terminal_ = isatty(STDERR_FILENO) == 1;
-  int shown_ = -1;
-};
-
-void run(bridge::BagFeed& feed, bridge::RecordedEstimates& estimates) {
-  ProgressBar bar;
+void run(bridge::BagFeed& feed, bridge::RecordedEstimates& estimates, mapping::Survey* survey) {
+  tools::ProgressBar bar;
   bridge::BagFeed::Visitor visitor;
   visitor.scan = [&](pipeline::LocatedScan located, const ros::Time& now) {
+    if (survey) survey->take(located);
     estimates.take(std::move(located), now);
   };
   visitor.message = [&](const rosbag::MessageInstance& message) { estimates.copy(message); };
@@ -151,11 +159,14 @@ int runOffline(const Job& job) {
   const auto start = Clock::now();
   auto config = pipeline::EstimatorsConfig::readFile(job.config);
   if (job.no_wheels) config.input.feed.odometry_source = pipeline::OdometrySource::kNone;
-  const auto set = nodesOf(job, config);
+  const Nodes nodes = nodesOf(job, config);
   bridge::BagFeed feed(job.in, config, {});
   prepareOut(job);
-  bridge::RecordedEstimates estimates(config, set, job.out);
-  run(feed, estimates);
+  bridge::RecordedEstimates estimates(config, nodes.set, job.out);
+  std::optional<mapping::Survey> survey;
+  if (nodes.map) survey.emplace(config);
+  run(feed, estimates, survey ? &*survey : nullptr);
+  if (survey) writeMap(*survey, job);
   return report(estimates, feed, std::chrono::duration<double>(Clock::now() - start).count());
 }
 
@@ -170,7 +181,7 @@ int main(int argc, char** argv) {
   program.requiredOption("--out", job.out, "DIR",
                          "folder for out.bag and one trajectory, NODE.tum, for each node with a "
                          "pose");
-  program.option("--nodes", job.nodes, "lines,rooms,odometry",
+  program.option("--nodes", job.nodes, "lines,rooms,odometry,map",
                  "what to run; by default lines, and rooms and odometry where the settings ask for "
                  "them");
   program.flag("--no-wheels", job.no_wheels, "leave the odometry of the bag unused");

@@ -19,6 +19,11 @@ Eigen::Vector2d pointOf(const Node& node) {
 }
 
 geometry::Pose2 poseOf(const Node& room) {
+  if (room.has("turn_deg")) {
+    const double turn = room.at("turn_deg").number({-360.0, 360.0});
+    const Eigen::Vector2d at = room.has("pose") ? pointOf(room.at("pose")) : Eigen::Vector2d(0, 0);
+    return {at, geometry::radians(turn)};
+  }
   if (!room.has("pose")) return {};
   const auto p = room.at("pose").numbers(3, kBuildingCoordinates);
   return {p[0], p[1], p[2]};
@@ -60,7 +65,7 @@ class Reader {
 
  private:
   void readRoom(const std::string& name, const Node& node) {
-    node.allowOnly({"size", "polygon", "pose", "walls"});
+    node.allowOnly({"size", "polygon", "pose", "turn_deg", "walls"});
     const std::size_t room = readOutline(name, node);
     if (!node.has("walls")) return;
     for (const auto& [wall, wall_node] : node.at("walls").entries()) {

@@ -68,6 +68,17 @@ TEST_F(OfflineTest, TracksTheRobotInTheRoom) {
   EXPECT_LT(errors.absolute->rotation.mean, 0.2);
 }
 
+TEST_F(OfflineTest, WritesThePathOfTheWholeRecording) {
+  const auto result = run("--nodes map");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("map: 60 scans, "));
+  const auto trajectory = logs::readTrajectory(folder_.path("out/map.tum"));
+  ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kScans));
+  for (const geometry::StampedPose2& timed : trajectory) {
+    EXPECT_LT((timed.pose.translation() - robotAt(timed).translation()).norm(), 0.01);
+  }
+}
+
 TEST_F(OfflineTest, WritesWhatRvizNeeds) {
   ASSERT_EQ(run().status, 0);
   const auto topics = topicsOfResult();

@@ -76,6 +76,19 @@ TEST(RoomMapFile, IsReadFromWhereItWasWritten) {
   expectSame(floorPlan(), RoomMap::readFile(folder.path("rooms.yaml")));
 }
 
+TEST(RoomMapFile, TurnsMayBeInDegrees) {
+  const RoomMap map(
+      config::Node::parse("rooms:\n  a: {size: [4, 2], pose: [1, 2], turn_deg: 90}\n  b: {size: "
+                          "[1, 1], turn_deg: -45}\n",
+                          "rooms"));
+  EXPECT_NEAR(map.rooms()[0].T_map_room.theta(), 0.5 * geometry::kPi, 1e-12);
+  EXPECT_EQ(map.rooms()[0].T_map_room.translation(), Vector2d(1.0, 2.0));
+  EXPECT_NEAR(map.rooms()[1].T_map_room.theta(), -0.25 * geometry::kPi, 1e-12);
+  EXPECT_THROW(RoomMap(config::Node::parse(
+                   "rooms:\n  a: {size: [4, 2], pose: [1, 2, 0.1], turn_deg: 90}\n", "rooms")),
+               config::Error);
+}
+
 TEST(RoomMapFile, SaysWhereItCannotBeWritten) {
   const config::Error error =
       test::errorOf([] { writeFile(floorPlan(), "/no/such/folder/rooms.yaml"); });

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sightline/geometry/segment.h"
+#include "sightline/world/room_map.h"
+
+namespace sightline::mapping {
+
+/// The line of a side of a room: n·(p − anchor) = distance with n = (cos angle, sin angle) pointing
+/// into the room; the anchor is the room's.
+struct SideLine {
+  double angle = 0.0;     ///< [rad]
+  double distance = 0.0;  ///< [m], negative where the anchor is inside
+  /// Of (distance at the middle of the side, angle) [m², m rad, rad²].
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  bool is_seen = false;  ///< whether scans tell where it is
+
+  Eigen::Vector2d normal() const { return {std::cos(angle), std::sin(angle)}; }
+};
+
+/// A room as the lines of its sides, counter-clockwise; a corner is where two neighbours meet.
+struct RoomOutline {
+  std::string name;
+  Eigen::Vector2d anchor = Eigen::Vector2d::Zero();  ///< in the map, about its middle [m]
+  std::vector<SideLine> sides;
+  std::vector<std::vector<world::Span>> spans;  ///< of each side, where it is really wall
+
+  /// From the corner where side i begins to that where it ends, the inside on its left.
+  geometry::Segment side(std::size_t i) const;
+  bool contains(const Eigen::Vector2d& point_map) const;
+  double area() const;  ///< [m²]
+};
+
+/// A rectangle: its middle, its turn and its size.
+RoomOutline rectangleOutline(const Eigen::Vector2d& middle_map, double turn,
+                             const Eigen::Vector2d& size);
+
+}  // namespace sightline::mapping

@@ -1,0 +1,209 @@
+#include "sightline/mapping/wall_adjustment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <ceres/ceres.h>
+
+#include "path_problem.h"
+#include "pose_factors.h"
+#include "side_sightings.h"
+
+namespace sightline::mapping {
+
+namespace {
+
+using geometry::Pose2;
+
+constexpr struct {
+  double gates[3] = {0.15, 0.1, 0.06};  // distance from the side, round by round [m]
+  double square_sigma = 0.006;          // of the angle between neighbours [rad]
+  // Of a side about where it was found [m], and about the turn of its rectangle [rad]: a curved
+  // wall makes no rectangle oblique.
+  double prior_sigma = 0.1;
+  double turn_sigma = 0.01;
+  double loss = 2.0;
+  // Ratio of the variances to those that the residuals tell, as errors of neighbouring scans go
+  // together: by NEES on the first two floors of `scripts/bench mapping`.
+  double calibration = 0.8;
+} kWalls{};
+
+/// Distance of two points of a key scan from a side.
+class SideFactor {
+ public:
+  SideFactor(const SideSighting& sighting, const Eigen::Vector2d& anchor)
+      : sighting_(sighting), anchor_(anchor) {}
+  template <class T>
+  bool operator()(const T* pose, const T* side, T* residual) const {
+    using std::cos;
+    using std::sin;
+    const T c = cos(pose[2]);
+    const T s = sin(pose[2]);
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector2d& p = sighting_.ends_base[i];
+      const T x = pose[0] + c * p.x() - s * p.y() - anchor_.x();
+      const T y = pose[1] + s * p.x() + c * p.y() - anchor_.y();
+      residual[i] = (cos(side[1]) * x + sin(side[1]) * y - side[0]) / sighting_.sigma;
+    }
+    return true;
+  }
+
+ private:
+  SideSighting sighting_;
+  Eigen::Vector2d anchor_;
+};
+
+/// Angle between neighbouring sides, expected to be what it is nearest to of the right ones.
+class SquareFactor {
+ public:
+  template <class T>
+  bool operator()(const T* a, const T* b, T* residual) const {
+    residual[0] = wrapped(b[1] - a[1] - T(0.5 * geometry::kPi)) / kWalls.square_sigma;
+    return true;
+  }
+};
+
+class WallProblem {
+ public:
+  /// @param found  the rooms as they were found
+  WallProblem(const std::vector<KeyScan>& keys, const AdjustedPath& path,
+              const std::vector<RoomOutline>& rooms, const std::vector<RoomOutline>& found)
+      : path_(keys, path.keys), rooms_(rooms) {
+    path_.addSteps();
+    for (const Relation& relation : path.relations) path_.add(relation);
+    for (std::size_t r = 0; r < rooms.size(); ++r) addRoom(rooms[r], found[r]);
+  }
+
+  void add(const SideSighting& sighting) {
+    seen_[sighting.room][sighting.side] = true;
+    const auto block = path_.problem().AddResidualBlock(
+        new ceres::AutoDiffCostFunction<SideFactor, 2, 3, 2>(
+            new SideFactor(sighting, rooms_[sighting.room].anchor)),
+        new ceres::CauchyLoss(kWalls.loss), path_.pose(sighting.key),
+        values_[sighting.room][sighting.side].data());
+    sightings_.push_back(block);
+  }
+
+  void solve() { path_.solve(); }
+
+  void store(AdjustedPath& path, std::vector<RoomOutline>& rooms) const {
+    path.keys = path_.poses();
+    path.wheel_scale = path_.wheelScale();
+    for (std::size_t r = 0; r < rooms.size(); ++r) {
+      for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
+        SideLine& side = rooms[r].sides[i];
+        side.distance = values_[r][i][0];
+        side.angle = geometry::wrapAngle(values_[r][i][1]);
+        side.is_seen = seen_[r][i];
+      }
+    }
+  }
+
+  // Variance of a residual that was expected to be 1: surfaces may be smoother than assumed.
+  double varianceFactor() {
+    double sum = 0.0;
+    for (const auto& block : sightings_) {
+      double cost = 0.0;
+      path_.problem().EvaluateResidualBlock(block, /*apply_loss_function=*/true, &cost, nullptr,
+                                            nullptr);
+      sum += 2.0 * cost;
+    }
+    for (const double cost : path_.relationCosts()) {
+      sum += kWalls.loss * kWalls.loss * std::log1p(cost / (kWalls.loss * kWalls.loss));
+    }
+    const std::size_t residuals = 2 * sightings_.size() + 3 * path_.relations();
+    const std::size_t unknowns = 3 * path_.poses().size() + 8 * rooms_.size();
+    return sum / static_cast<double>(residuals - std::min(unknowns, residuals / 2));
+  }
+
+  void storeCovariances(std::vector<RoomOutline>& rooms) {
+    const double factor = kWalls.calibration * varianceFactor();
+    ceres::Covariance::Options options;
+    options.algorithm_type = ceres::SPARSE_QR;
+    ceres::Covariance covariance(options);
+    std::vector<std::pair<const double*, const double*>> blocks;
+    for (const auto& room : values_) {
+      for (const auto& side : room) blocks.emplace_back(side.data(), side.data());
+    }
+    if (!covariance.Compute(blocks, &path_.problem())) return;
+    for (std::size_t r = 0; r < rooms.size(); ++r) {
+      for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
+        Eigen::Matrix<double, 2, 2, Eigen::RowMajor> of_side;
+        covariance.GetCovarianceBlock(values_[r][i].data(), values_[r][i].data(), of_side.data());
+        rooms[r].sides[i].covariance = factor * aboutMiddle(rooms[r], i, of_side);
+      }
+    }
+  }
+
+ private:
+  // The lines' places; those of sides that nobody saw stay about where they are.
+  void addRoom(const RoomOutline& room, const RoomOutline& found) {
+    std::vector<std::array<double, 2>> values;
+    for (const SideLine& side : room.sides) values.push_back({side.distance, side.angle});
+    values_.push_back(std::move(values));
+    seen_.emplace_back(room.sides.size(), false);
+    auto& kept = values_.back();
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Eigen::Vector2d before(kept[i][0], found.sides[i].angle);
+      path_.problem().AddResidualBlock(
+          new ceres::AutoDiffCostFunction<SidePrior, 2, 2>(new SidePrior(before)), nullptr,
+          kept[i].data());
+    }
+    if (kept.size() != 4) return;
+    for (std::size_t i = 0; i < 4; ++i) {
+      path_.problem().AddResidualBlock(
+          new ceres::AutoDiffCostFunction<SquareFactor, 1, 2, 2>(new SquareFactor()),
+          new ceres::CauchyLoss(kWalls.loss), kept[i].data(), kept[(i + 1) % 4].data());
+    }
+  }
+
+  struct SidePrior {
+    explicit SidePrior(const Eigen::Vector2d& mean_) : mean(mean_) {}
+    template <class T>
+    bool operator()(const T* side, T* residual) const {
+      residual[0] = (side[0] - mean[0]) / kWalls.prior_sigma;
+      residual[1] = wrapped(side[1] - mean[1]) / kWalls.turn_sigma;
+      return true;
+    }
+    Eigen::Vector2d mean;
+  };
+
+  // From the foot of the anchor to the middle of the side.
+  static Eigen::Matrix2d aboutMiddle(const RoomOutline& room, std::size_t i,
+                                     const Eigen::Matrix2d& covariance) {
+    const geometry::Segment side = room.side(i);
+    const double lever = side.direction().dot(side.midpoint() - room.anchor);
+    Eigen::Matrix2d shift = Eigen::Matrix2d::Identity();
+    shift(0, 1) = lever;
+    return shift * covariance * shift.transpose();
+  }
+
+  PathProblem path_;
+  const std::vector<RoomOutline>& rooms_;
+  std::vector<std::vector<std::array<double, 2>>> values_;  // distance and angle, by room and side
+  std::vector<std::vector<bool>> seen_;
+  std::vector<ceres::ResidualBlockId> sightings_;
+};
+
+}  // namespace
+
+void adjustWalls(const std::vector<KeyScan>& keys, AdjustedPath& path,
+                 std::vector<RoomOutline>& rooms) {
+  if (rooms.empty()) return;
+  const std::vector<RoomOutline> found = rooms;
+  for (const double gate : kWalls.gates) {
+    std::vector<SideSighting> sightings;
+    const SightingFinder finder(rooms, gate);
+    for (std::size_t k = 0; k < keys.size(); ++k) finder.find(k, keys[k], path.keys[k], sightings);
+    const std::vector<RoomOutline> before = rooms;
+    WallProblem problem(keys, path, before, found);
+    for (const SideSighting& sighting : sightings) problem.add(sighting);
+    problem.solve();
+    problem.store(path, rooms);
+    if (gate == *std::rbegin(kWalls.gates)) problem.storeCovariances(rooms);
+  }
+}
+
+}  // namespace sightline::mapping
