@@ -78,6 +78,8 @@ class MrclamBag {
         bag_(path, rosbag::bagmode::Write),
         labels_(openBeside(path, ".labels.csv")),
         robots_(set.robots) {
+    // The covariances of the odometry are zeros, most of the bag.
+    bag_.setCompression(rosbag::compression::LZ4);
     labels_ << "stamp,robot,index,subject\n";
     for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
       contents_.robots.push_back(robotName(robots_[robot]));
@@ -201,10 +203,10 @@ void MrclamBagOptions::visit(config::FieldVisitor& visitor) {
   visitor.number("bias", bias, {"rad", {-3.2, 3.2}, "measured less true bearing"});
   visitor.number("period", period,
                  {"s", {-1.0, 100.0}, "between two images; 0: found; negative: none put back"});
-  visitor.number("position_sigma", position_sigma, {"m", config::kNotNegative, "error of poses"});
-  visitor.number("heading_sigma", heading_sigma, {"rad", config::kNotNegative, "of headings"});
+  visitor.number("position_sigma", position_sigma, {"m", {0.0, 1e6}, "error of poses"});
+  visitor.number("heading_sigma", heading_sigma, {"rad", {0.0, 1e6}, "of headings"});
   visitor.number("pose_correlation", pose_correlation,
-                 {"s", config::kNotNegative, "time constant of these errors"});
+                 {"s", {0.0, 1e6}, "time constant of these errors"});
   visitor.integer("seed", seed, {"-", {0, 1000000}, "of these errors"});
 }
 

@@ -24,9 +24,8 @@ void TargetsConfig::visit(config::FieldVisitor& visitor) {
   visitor.text("map_frame", map_frame, "frame of the targets");
   visitor.number("patience", patience,
                  {"s", {0.0, 60.0}, "time that a look waits for the pose of its sensor"});
-  visitor.number(
-      "period", period,
-      {"s", config::kNotNegative, "time between two outputs; 0: one a look that counts"});
+  visitor.number("period", period,
+                 {"s", {0.0, 1e6}, "time between two outputs; 0: one a look that counts"});
   tracker.visit(visitor);
 }
 
@@ -61,18 +60,26 @@ void BearingFeed::clear() {
   frames_.clear();
 }
 
-std::optional<geometry::UncertainPose2> BearingFeed::poseOf(const ArrivedLook& look) const {
+std::optional<geometry::UncertainPose2> BearingFeed::poseOf(const ArrivedLook& look,
+                                                            std::int64_t stamp) const {
   if (config_.pose_topic.empty()) {
-    const auto T_map_sensor = transforms_.at(config_.map_frame, look.frame, look.set.stamp);
+    const auto T_map_sensor = transforms_.at(config_.map_frame, look.frame, stamp);
     if (!T_map_sensor) return std::nullopt;
     return geometry::UncertainPose2{geometry::inPlane(*T_map_sensor), Eigen::Matrix3d::Zero()};
   }
   const auto found = poses_.find(look.robot);
   if (found == poses_.end()) return std::nullopt;
   const auto& history = found->second.history;
-  const auto pose = geometry::poseAt(history.begin(), history.end(), look.set.stamp, kWidestGap);
+  const auto pose = geometry::poseAt(history.begin(), history.end(), stamp, kWidestGap);
   if (!pose) return std::nullopt;
   return geometry::UncertainPose2{*pose, found->second.covariance};
+}
+
+double BearingFeed::turnRateOf(const ArrivedLook& look, const geometry::Pose2& pose) const {
+  constexpr std::int64_t kBefore = 50'000'000;
+  const auto before = poseOf(look, look.set.stamp - kBefore);
+  if (!before) return 0.0;
+  return geometry::wrapAngle(pose.theta() - before->mean.theta()) * 1e9 / kBefore;
 }
 
 std::vector<BearingFeed::Ready> BearingFeed::ready(std::int64_t now) {
@@ -81,15 +88,16 @@ std::vector<BearingFeed::Ready> BearingFeed::ready(std::int64_t now) {
   std::deque<ArrivedLook> waiting;
   for (ArrivedLook& look : looks_) {
     const std::string& frame = frames_.emplace(look.robot, look.frame).first->second;
-    const auto pose = poseOf(look);
+    const auto pose = poseOf(look, look.set.stamp);
     if (frame != look.frame) {
       result.push_back(
-          {look.robot, look.set, "two sensors under one name: " + frame + ", " + look.frame});
+          {look.robot, look.set, "two sensors under one name: " + frame + ", " + look.frame, 0.0});
     } else if (pose) {
       look.set.T_map_sensor = *pose;
-      result.push_back({look.robot, std::move(look.set), ""});
+      const double turn_rate = turnRateOf(look, pose->mean);
+      result.push_back({look.robot, std::move(look.set), "", turn_rate});
     } else if (now - look.arrival >= patience) {
-      result.push_back({look.robot, look.set, "no pose of the sensor at its stamp"});
+      result.push_back({look.robot, look.set, "no pose of the sensor at its stamp", 0.0});
     } else {
       waiting.push_back(std::move(look));
     }

@@ -18,14 +18,16 @@ double seconds(std::int64_t nanoseconds) {
   return 1e-9 * static_cast<double>(nanoseconds);
 }
 
-// Weights of targets with measurements over those of both apart (Williams and Lau 2014).
-Eigen::MatrixXd ratiosOf(const std::vector<Candidate>& candidates,
+// Weights of targets with measurements over those of both apart (Williams and Lau 2014); below them
+// those of known things, which compete for the measurements.
+Eigen::MatrixXd ratiosOf(const std::vector<Candidate>& candidates, const Look& look,
                          const std::vector<double>& unknown) {
-  Eigen::MatrixXd ratio(candidates.size(), unknown.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
+  const std::size_t targets = candidates.size();
+  Eigen::MatrixXd ratio(targets + look.knownCount(), unknown.size());
+  for (std::size_t i = 0; i < targets + look.knownCount(); ++i) {
     for (std::size_t m = 0; m < unknown.size(); ++m) {
-      ratio(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(m)) =
-          candidates[i].ratio(m) / unknown[m];
+      const double weight = i < targets ? candidates[i].ratio(m) : look.knownRatio(i - targets, m);
+      ratio(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(m)) = weight / unknown[m];
     }
   }
   return ratio;
@@ -41,14 +43,15 @@ void BernoulliFilterConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("nearest", nearest,
                  {"m", {0.01, 100.0}, "range at which the Gaussians of a bearing begin"});
   visitor.number("static_noise", static_noise,
-                 {"m^2/s", config::kNotNegative, "variance that a standing target gains"});
+                 {"m^2/s", {0.0, 1e6}, "variance that a standing target gains"});
   visitor.number("moving_share", moving_share,
                  {"1", {0.0, 1.0}, "probability that a new target moves; 0: all stand"});
   visitor.number("moving_noise", moving_noise,
-                 {"m^2/s", config::kNotNegative, "variance that a moving target gains"});
+                 {"m^2/s", {0.0, 1e6}, "variance that a moving target gains"});
   visitor.number("lifetime", lifetime, {"s", {1.0, 1e12}, "mean time that a target stays"});
   visitor.number("cutoff", cutoff,
-                 {"m", config::kPositive,
+                 {"m",
+                  {1e-6, 1e6},
                   "a target is reported where a miss would cost more than a false report, which "
                   "costs as much as an error of this length"});
   visitor.number("least_existence", least_existence,
@@ -93,7 +96,7 @@ void BernoulliFilter::update(const BearingSet& set, const SensorModel& model) {
     births.push_back(birthAlong(look, m, undetected_, config_.ranges, config_.nearest));
     unknown.push_back(std::max(births.back().mass + look.clutter(m), 1e-12));
   }
-  const Association association = associate(ratiosOf(candidates, unknown));
+  const Association association = associate(ratiosOf(candidates, look, unknown));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Bernoulli& bernoulli = bernoullis_[candidates[i].index()];
     candidates[i].apply(association.assigned.row(static_cast<Eigen::Index>(i)), bernoulli);

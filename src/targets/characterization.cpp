@@ -203,9 +203,9 @@ void CharacterizationConfig::visit(config::FieldVisitor& visitor) {
       {"rad", {1e-4, 0.5}, "standard deviation by which bearings are labelled at first"});
   visitor.integer("range_bins", range_bins, {"-", {1, 100}, "of the table of probabilities"});
   visitor.integer("bearing_bins", bearing_bins, {"-", {1, 100}, "of the table of probabilities"});
-  visitor.number("pseudo_looks", pseudo_looks,
-                 {"-", config::kNotNegative,
-                  "looks by which a bin is drawn to what its range and its bearing say"});
+  visitor.number(
+      "pseudo_looks", pseudo_looks,
+      {"-", {0.0, 1e6}, "looks by which a bin is drawn to what its range and its bearing say"});
   visitor.group("spacing", spacing);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "sightline/geometry/statistics.h"
 
@@ -163,49 +164,59 @@ ClutterLikelihood fitClutterLikelihood(const std::vector<ClutterBearing>& clutte
 
 namespace {
 
-// Sums of a Gaussian on an even background over errors, one step of expectation maximisation.
+// A Gaussian, a wider one of the same mean, and an even background, by expectation maximisation.
 struct ErrorMixture {
+  static constexpr double kWide = 2.5;  // standard deviation of the wider one, in those of the core
+
   double sigma;
   double bias = 0.0;
-  double share = 0.8;  // of the Gaussian
+  double core = 0.6;  // shares
+  double wide = 0.2;
 
-  double belongs(double error, double gate) const {
+  static double gaussianAt(double scaled, double sigma) {
+    return std::exp(-0.5 * scaled * scaled) / (sigma * std::sqrt(2.0 * geometry::kPi));
+  }
+
+  // Probabilities that an error is of the core, and of the wider one.
+  std::pair<double, double> belongs(double error, double gate) const {
     const double scaled = (error - bias) / sigma;
-    const double core =
-        share * std::exp(-0.5 * scaled * scaled) / (sigma * std::sqrt(2.0 * geometry::kPi));
-    return core / (core + (1.0 - share) / (2.0 * gate));
+    const double of_core = core * gaussianAt(scaled, sigma);
+    const double of_wide = wide * gaussianAt(scaled / kWide, kWide * sigma);
+    const double sum = of_core + of_wide + (1.0 - core - wide) / (2.0 * gate);
+    return {of_core / sum, of_wide / sum};
   }
 
   void step(const std::vector<double>& errors, double gate) {
-    double count = 0.0;
+    double cores = 0.0;
+    double wides = 0.0;
+    double weights = 0.0;
     double sum = 0.0;
     double squares = 0.0;
     for (const double error : errors) {
-      const double weight = belongs(error, gate);
-      count += weight;
+      const auto [of_core, of_wide] = belongs(error, gate);
+      // The wider one's errors, scaled to the core's.
+      const double weight = of_core + of_wide / (kWide * kWide);
+      cores += of_core;
+      wides += of_wide;
+      weights += weight;
       sum += weight * error;
       squares += weight * error * error;
     }
-    bias = sum / count;
-    sigma = std::sqrt(std::max(squares / count - bias * bias, 1e-10));
-    share = std::min(count / static_cast<double>(errors.size()), 1.0 - 1e-6);
+    bias = sum / weights;
+    sigma = std::sqrt(std::max((squares - weights * bias * bias) / (cores + wides), 1e-10));
+    const auto count = static_cast<double>(errors.size());
+    core = std::min(cores / count, 1.0 - 1e-6);
+    wide = std::min(wides / count, 1.0 - 1e-6 - core);
   }
+
+  // Standard deviation of both Gaussians together over that of the core.
+  double tail() const { return std::sqrt((core + kWide * kWide * wide) / (core + wide)); }
 };
 
 ErrorMixture mixtureOf(const std::vector<double>& errors, double gate) {
   ErrorMixture mixture{gate / 3.0};
-  for (int i = 0; i < 100; ++i) mixture.step(errors, gate);
+  for (int i = 0; i < 200; ++i) mixture.step(errors, gate);
   return mixture;
-}
-
-double tailOf(std::vector<double> errors, const ErrorMixture& mixture) {
-  // The background beyond the core is clutter rather than tail: its share is left out.
-  for (double& error : errors) error = std::abs(error - mixture.bias);
-  const auto kept =
-      static_cast<std::size_t>(0.95 * mixture.share * static_cast<double>(errors.size()));
-  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(kept),
-                   errors.end());
-  return std::max(1.0, errors[kept] / (geometry::kNormal95 * mixture.sigma));
 }
 
 // Slope of errors against the turn rate, of those that belong to the core.
@@ -219,7 +230,7 @@ LagSums lagSums(const std::vector<KnownLook>& looks, const std::vector<Opportuni
   LagSums sums;
   for (const Opportunity& one : labelled) {
     if (!one.is_detected) continue;
-    const double weight = mixture.belongs(one.error, gate);
+    const double weight = mixture.belongs(one.error, gate).first;
     const double rate = looks[one.look].turn_rate;
     sums.rates += weight * rate * rate;
     sums.products += weight * rate * (one.error - mixture.bias);
@@ -251,7 +262,7 @@ ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opport
   const ErrorMixture mixture = mixtureOf(errors, gate);
   result.sigma = mixture.sigma;
   result.bias = mixture.bias;
-  result.tail = tailOf(errors, mixture);
+  result.tail = mixture.tail();
   return result;
 }
 

@@ -34,17 +34,26 @@ Look::Look(const BearingSet& set, const SensorModel& model)
       sigma_(std::max(model.config().bearing.sigma * model.config().bearing.tail, set.sigma)) {
   for (const double bearing : set.bearings) {
     bearings_.push_back(geometry::wrapAngle(bearing - model.config().bearing.bias));
-    clutter_.push_back(clutterAt(bearings_.back()));
+    clutter_.push_back(model.clutter(bearings_.back(), set.T_map_sensor.mean));
+  }
+  for (const UncertainPoint& point : set.known) {
+    const Component component{1.0, point.mean, point.covariance, false};
+    const BearingPrediction prediction = predictBearing(component, pose(), sigma_);
+    const double detected = detection(prediction.polar);
+    if (detected > 0.0) known_.push_back({prediction, detected});
   }
 }
 
-double Look::clutterAt(double bearing) const {
-  double density = model_.clutter(bearing, pose().mean);
-  for (const UncertainPoint& known : set_.known) {
-    const Component component{1.0, known.mean, known.covariance, false};
-    const BearingPrediction prediction = predictBearing(component, pose(), sigma_);
-    const double error = geometry::wrapAngle(bearing - prediction.polar.bearing);
-    density += detection(prediction.polar) * gaussian(error, prediction.variance);
+double Look::knownRatio(std::size_t known, std::size_t measurement) const {
+  const Known& thing = known_[known];
+  return thing.detection * likelihood(measurement, thing.prediction) /
+         (1.0 - std::min(thing.detection, 0.99));
+}
+
+double Look::knownDensity(std::size_t measurement) const {
+  double density = 0.0;
+  for (const Known& thing : known_) {
+    density += thing.detection * likelihood(measurement, thing.prediction);
   }
   return density;
 }

@@ -28,10 +28,9 @@ void PhdFilterConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("nearest", nearest, {"m", {0.01, 100.0}, "range at which these begin"});
   visitor.number("survival", survival,
                  {"1", {0.0, 1.0}, "probability that a target stays for a second, p_S"});
-  visitor.number("noise", noise,
-                 {"m^2/s", config::kNotNegative, "variance that a target's place gains"});
+  visitor.number("noise", noise, {"m^2/s", {0.0, 1e6}, "variance that a target's place gains"});
   visitor.number("roughening", roughening,
-                 {"m", config::kNotNegative, "spread of particles that are drawn anew"});
+                 {"m", {0.0, 1e6}, "spread of particles that are drawn anew"});
   visitor.integer("seed", seed, {"-", {0, 2147483647}, "of the particles"});
   visitor.group("extraction", extraction);
 }
@@ -97,7 +96,7 @@ std::vector<double> PhdFilter::weigh(const Look& look, const std::vector<Birth>&
   std::vector<double> likelihood(seen.size());
   std::vector<double> born;
   for (std::size_t m = 0; m < look.size(); ++m) {
-    double sum = births[m].mass + look.clutter(m) + 1e-12;
+    double sum = births[m].mass + look.clutter(m) + look.knownDensity(m) + 1e-12;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const double error = geometry::wrapAngle(look.bearing(m) - seen[i].bearing);
       likelihood[i] = seen[i].detection * gaussianDensity(error, inverse_sigma);

@@ -57,7 +57,7 @@ double DetectionTable::at(double range, double bearing) const {
 
 void DetectionTable::visit(config::FieldVisitor& visitor) {
   visitor.numbers("range_edges", range_edges,
-                  {"m", config::kNotNegative, "edges of the bins of range, rising"});
+                  {"m", {0.0, 1e6}, "edges of the bins of range, rising"});
   visitor.numbers("bearing_edges", bearing_edges,
                   {"rad", kBearing, "edges of the bins of bearing, rising"});
   visitor.numbers("probabilities", probabilities,
@@ -71,7 +71,7 @@ void DetectionConfig::visit(config::FieldVisitor& visitor) {
                  {"m", {0.0, 10.0}, "effective diameter of a target, d_t (dames eq. 1)"});
   visitor.number("beam_spacing", beam_spacing,
                  {"rad", {1e-6, 1.0}, "angle between two beams, theta_sep (dames eq. 1)"});
-  visitor.number("range_min", range_min, {"m", config::kNotNegative, "nearer ones are not seen"});
+  visitor.number("range_min", range_min, {"m", {0.0, 1e6}, "nearer ones are not seen"});
   visitor.number("range_max", range_max,
                  {"m", {1e-3, 1e4}, "farther ones are not seen, r_max (dames eq. 1)"});
   visitor.group("table", table);

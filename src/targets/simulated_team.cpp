@@ -18,16 +18,16 @@ constexpr std::uint64_t kSamplerSeed = 0x9e3779b97f4a7c15ULL;
 void TeamConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("size", size, {"m", {1.0, 1e4}, "edge of the square in which all takes place"});
   visitor.integer("targets", targets, {"-", {0, 10000}, "number of targets"});
-  visitor.number("spacing", spacing, {"m", config::kNotNegative, "least distance of two targets"});
+  visitor.number("spacing", spacing, {"m", {0.0, 1e6}, "least distance of two targets"});
   visitor.integer("robots", robots, {"-", {1, 1000}, "number of robots"});
-  visitor.number("speed", speed, {"m/s", config::kNotNegative, "of the robots"});
+  visitor.number("speed", speed, {"m/s", {0.0, 1e6}, "of the robots"});
   visitor.number("period", period, {"s", {1e-3, 1e3}, "time between two looks of a robot"});
   visitor.number("position_sigma", position_sigma,
-                 {"m", config::kNotNegative, "error of the reported poses, in x and in y"});
+                 {"m", {0.0, 1e6}, "error of the reported poses, in x and in y"});
   visitor.number("heading_sigma", heading_sigma,
-                 {"rad", config::kNotNegative, "error of the reported headings"});
+                 {"rad", {0.0, 1e6}, "error of the reported headings"});
   visitor.number("pose_correlation", pose_correlation,
-                 {"s", config::kPositive, "time constant of the errors of the poses"});
+                 {"s", {1e-6, 1e6}, "time constant of the errors of the poses"});
   visitor.integer("blind_looks", blind_looks,
                   {"-", {1, 100000}, "looks for which a target stays visible or hidden"});
   visitor.group("model", model);

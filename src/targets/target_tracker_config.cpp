@@ -24,11 +24,10 @@ SensorModelsConfig SensorModelsConfig::readFile(const std::string& path) {
 }
 
 void LookSpacingConfig::visit(config::FieldVisitor& visitor) {
-  visitor.number(
-      "distance", distance,
-      {"m", config::kNotNegative, "that a sensor has moved since its last look counted"});
+  visitor.number("distance", distance,
+                 {"m", {0.0, 1e6}, "that a sensor has moved since its last look counted"});
   visitor.number("turn", turn, {"rad", {0.0, geometry::kPi}, "or that it has turned"});
-  visitor.number("rest", rest, {"s", config::kNotNegative, "or the time that has passed"});
+  visitor.number("rest", rest, {"s", {0.0, 1e6}, "or the time that has passed"});
 }
 
 void TargetTrackerConfig::visit(config::FieldVisitor& visitor) {
@@ -50,9 +49,8 @@ void TargetTrackerConfig::visit(config::FieldVisitor& visitor) {
                "bearings at which another robot stands are explained by it");
   visitor.number("mate_sigma", mate_sigma,
                  {"m", {1e-3, 10.0}, "of the place on a robot at which others see it"});
-  visitor.number(
-      "max_age", max_age,
-      {"s", config::kNotNegative, "a look older than this behind the newest is refused"});
+  visitor.number("max_age", max_age,
+                 {"s", {0.0, 1e6}, "a look older than this behind the newest is refused"});
 }
 
 }  // namespace sightline::targets

@@ -9,10 +9,10 @@
 namespace sightline::targets {
 
 void UndetectedConfig::visit(config::FieldVisitor& visitor) {
-  visitor.number("prior", prior,
-                 {"1/m^2", config::kNotNegative, "density of targets before any look"});
+  visitor.number("prior", prior, {"1/m^2", {0.0, 1e6}, "density of targets before any look"});
   visitor.number("floor", floor,
-                 {"1/m^2", config::kNotNegative,
+                 {"1/m^2",
+                  {0.0, 1e6},
                   "density that looks never go below, as misses in a row are not independent"});
   visitor.number("resolution", resolution, {"m", {0.05, 10.0}, "cells of the grid"});
   visitor.numbers("area", area,

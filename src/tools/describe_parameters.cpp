@@ -9,6 +9,7 @@
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
 #include "nodes/sync_scan_driver_config.h"
+#include "nodes/target_tracker_config.h"
 #include "sightline/pipeline/estimators_config.h"
 #include "sightline/simulation/active_sensor_profile.h"
 #include "sightline/simulation/path.h"
@@ -57,6 +58,7 @@ void printNodes() {
   printTable("estimators", "Parameters of the node.",
              {{"config", "path", "(empty)", "-", "any",
                "the file of estimators that `offline` takes, too; must be set"}});
+  print<nodes::TargetTrackerNodeConfig>("target_tracker", "Parameters of the node.");
   print<nodes::SyncScanDriverConfig>("sync_scan_driver", "Parameters of the node.");
   print<nodes::SimSensorConfig>("sim_sensor", "Parameters of the node.");
   print<nodes::SimRobotConfig>(
@@ -76,6 +78,9 @@ void printNodes() {
 
 void printFiles() {
   namespace simulation = sightline::simulation;
+  print<sightline::targets::SensorModelsConfig>(
+      "Files of sensor models",
+      "What `characterize_bearing_sensor` writes and `models` of target_tracker names.");
   print<sightline::pipeline::EstimatorsConfig>("Files of estimators",
                                                "What `offline`, `replay.launch` and the node "
                                                "estimators are given. `rooms` and `odometry` are "

@@ -11,7 +11,7 @@
 namespace sightline::targets {
 namespace {
 
-constexpr double kInch = 0.0254;
+constexpr double kTapeInch = 0.0254;
 
 // Sum over fine steps from −π to π.
 template <class Density>
@@ -35,7 +35,7 @@ TEST(SensorModel, DetectionFollowsTheFormula) {
   const SensorModel coarse;
   EXPECT_NEAR(kneeRange(coarse.config().detection), 1.863, 1e-3);
   EXPECT_NEAR(coarse.detection(Polar{4.0, 0.5}),
-              0.79 * 1.28 * kInch / (4.0 * geometry::radians(1.0)), 1e-12);
+              0.79 * 1.28 * kTapeInch / (4.0 * geometry::radians(1.0)), 1e-12);
 }
 
 TEST(SensorModel, NothingIsDetectedOutOfView) {

@@ -36,7 +36,8 @@ class BearingFeed {
   struct Ready {
     std::string robot;
     targets::BearingSet set;
-    std::string fault;  ///< empty, or why it has no pose
+    std::string fault;       ///< empty, or why it has no pose
+    double turn_rate = 0.0;  ///< of the sensor just before the look [rad/s]; 0 where unknown
   };
   /// Looks that have got their pose, in the order of their stamps, and those that have waited too
   /// long, at a time [ns].
@@ -50,7 +51,8 @@ class BearingFeed {
     std::deque<geometry::StampedPose2> history;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // newest
   };
-  std::optional<geometry::UncertainPose2> poseOf(const ArrivedLook& look) const;
+  std::optional<geometry::UncertainPose2> poseOf(const ArrivedLook& look, std::int64_t stamp) const;
+  double turnRateOf(const ArrivedLook& look, const geometry::Pose2& pose) const;
 
   TargetsConfig config_;
   const Transforms& transforms_;

@@ -44,11 +44,12 @@ struct ErrorFit {
   double bias = 0.0;       ///< [rad]
   double lag = 0.0;        ///< [s]
   double lag_sigma = 0.0;  ///< standard deviation of the lag [s]
-  double tail = 1.0;       ///< 95 % quantile of errors over that of a Gaussian of this sigma
+  double tail = 1.0;       ///< standard deviation of all errors over that of the core
   std::size_t used = 0;
 };
-/// A Gaussian on an even background by expectation maximisation, within `gate` [rad]; the lag by
-/// regression of errors on the turn rate. Errors are those of labels without bias and lag.
+/// A Gaussian, one 2.5 times as wide and an even background by expectation maximisation, within
+/// `gate` [rad]; the lag by regression of errors on the turn rate. Errors are those of labels
+/// without bias and lag.
 ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
                    double gate);
 

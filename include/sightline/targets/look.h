@@ -22,9 +22,15 @@ class Look {
   std::size_t size() const { return bearings_.size(); }
   /// Bearing without the sensor's bias [rad].
   double bearing(std::size_t measurement) const { return bearings_[measurement]; }
-  /// Density of measurements that are of no target [1/rad]: clutter, and known things such as
-  /// robots.
+  /// Density of clutter at a measurement [1/rad].
   double clutter(std::size_t measurement) const { return clutter_[measurement]; }
+
+  /// Known things that are no targets, such as robots: a weight of being a measurement, p_d g, over
+  /// that of being missed, 1 − p_d.
+  std::size_t knownCount() const { return known_.size(); }
+  double knownRatio(std::size_t known, std::size_t measurement) const;
+  /// Density of measurements of all of them [1/rad].
+  double knownDensity(std::size_t measurement) const;
 
   /// Probability of detection by place in the sensor frame: mean over visible and hidden times.
   double detection(const Polar& place) const;
@@ -34,7 +40,10 @@ class Look {
   double likelihood(std::size_t measurement, const BearingPrediction& prediction) const;
 
  private:
-  double clutterAt(double bearing) const;
+  struct Known {
+    BearingPrediction prediction;
+    double detection;
+  };
   double detectionAt(const Eigen::Vector2d& point_map) const;
 
   const BearingSet& set_;
@@ -44,6 +53,7 @@ class Look {
   double sigma_;
   std::vector<double> bearings_;
   std::vector<double> clutter_;
+  std::vector<Known> known_;
 };
 
 /// What a bearing says of targets that nobody has detected yet: Gaussians along it.
