@@ -67,10 +67,9 @@ BagFeed::BagFeed(const std::vector<std::string>& paths, const pipeline::Estimato
 }
 
 // rosbag does not say which file is at fault.
-void BagFeed::open(const std::string& path) {
-  bags_.emplace_back();
+void openToRead(rosbag::Bag& bag, const std::string& path) {
   try {
-    bags_.back().open(path, rosbag::bagmode::Read);
+    bag.open(path, rosbag::bagmode::Read);
   } catch (const rosbag::BagUnindexedException&) {
     throw config::Error(path, 0, "", "it was not closed, and has no index: " + reindexing(path));
   } catch (const ros::Exception& fault) {
@@ -79,6 +78,11 @@ void BagFeed::open(const std::string& path) {
     throw config::Error(path, 0, "",
                         is_cut ? "it is cut short: " + reindexing(path) : fault.what());
   }
+}
+
+void BagFeed::open(const std::string& path) {
+  bags_.emplace_back();
+  openToRead(bags_.back(), path);
 }
 
 void BagFeed::addScanner(const std::string& topic) {

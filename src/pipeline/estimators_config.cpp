@@ -69,6 +69,7 @@ void EstimatorsConfig::visit(config::FieldVisitor& visitor) {
                "config/carriers has some; what stands beside it goes before what it says. Odometry "
                "from scans is then wanted");
   visitor.group("odometry", odometry);
+  visitor.group("targets", targets);
 }
 
 EstimatorsConfig EstimatorsConfig::readFile(const std::string& path) {

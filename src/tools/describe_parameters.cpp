@@ -11,6 +11,7 @@
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
 #include "nodes/sync_scan_driver_config.h"
+#include "nodes/target_tracker_config.h"
 #include "program/program.h"
 #include "sightline/pipeline/estimators_config.h"
 #include "sightline/simulation/active_sensor_profile.h"
@@ -67,6 +68,7 @@ std::vector<Section> estimatorSections() {
               "Parameters of the node.",
               {{"config", "path", "(empty)", "-", "any",
                 "the file of estimators that `offline` takes, too; must be set"}}},
+      sectionOf<nodes::TargetTrackerNodeConfig>("target_tracker", "Parameters of the node."),
       sectionOf<nodes::GazeNodeConfig>("gaze", "Parameters of the node."),
   };
 }
@@ -99,6 +101,9 @@ std::vector<Section> fileSections() {
   path.push_back({"waypoints", "list of [x, y]", "-", "m", "[-1e6, 1e6]",
                   "points of the path, in the map; must be set"});
   return {
+      sectionOf<sightline::targets::SensorModelsConfig>(
+          "Files of sensor models",
+          "What `characterize_bearing_sensor` writes and `models` of target_tracker names."),
       sectionOf<sightline::pipeline::EstimatorsConfig>(
           "Files of estimators",
           "What `offline`, `replay.launch` and the node "

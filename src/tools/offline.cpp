@@ -12,6 +12,7 @@
 #include "program/progress_bar.h"
 #include "sightline/bridge/bag_feed.h"
 #include "sightline/bridge/recorded_estimates.h"
+#include "sightline/bridge/recorded_targets.h"
 #include "sightline/logs/trajectory.h"
 #include "sightline/mapping/path_adjuster.h"
 
@@ -42,7 +43,7 @@ Nodes nodesOf(const std::string& list) {
   std::istringstream stream(list);
   for (std::string node; std::getline(stream, node, ',');) {
     if (node == "targets") {
-      throw tools::UsageError("--nodes: " + node + " is not part of this version");
+      throw tools::UsageError("--nodes: targets runs alone, as it takes bearings, not scans");
     }
     if (node == "lines") {
       set.lines = true;
@@ -155,10 +156,26 @@ int report(const bridge::RecordedEstimates& estimates, const bridge::BagFeed& fe
   return judge(estimates, feed);
 }
 
+int runTargets(const Job& job, const pipeline::EstimatorsConfig& config) {
+  const auto start = Clock::now();
+  if (!config.targets) throw config::Error(job.config, 0, "targets", "missing");
+  prepareOut(job);
+  bridge::RecordedTargets run(job.in, *config.targets, job.out);
+  ProgressBar bar;
+  run.read([&](double ratio) { bar.show(ratio); });
+  print(run.summary());
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  std::printf("%.1f s of looks in %.2f s: %.0f times real time\n", run.duration(), seconds,
+              run.duration() / seconds);
+  constexpr int kNothing = 3;
+  return run.used() > 0 ? 0 : kNothing;
+}
+
 int runOffline(const Job& job) {
   const auto start = Clock::now();
   auto config = pipeline::EstimatorsConfig::readFile(job.config);
   if (job.no_wheels) config.input.feed.odometry_source = pipeline::OdometrySource::kNone;
+  if (job.nodes == "targets") return runTargets(job, config);
   const Nodes nodes = nodesOf(job, config);
   bridge::BagFeed feed(job.in, config, {});
   prepareOut(job);
@@ -176,12 +193,13 @@ int main(int argc, char** argv) {
   Job job;
   tools::Program program("offline", "Runs the estimators over recordings, as fast as they go.");
   program.positionals("IN.bag", job.in, "the bags to read, as one");
-  program.requiredOption("--config", job.config, "FILE.yaml",
-                         "settings: scans, frames, noise, lines, rooms, carrier, odometry");
+  program.requiredOption(
+      "--config", job.config, "FILE.yaml",
+      "settings: scans, frames, noise, lines, rooms, carrier, odometry, targets");
   program.requiredOption("--out", job.out, "DIR",
                          "folder for out.bag and one trajectory, NODE.tum, for each node with a "
-                         "pose");
-  program.option("--nodes", job.nodes, "lines,rooms,odometry,map",
+                         "pose; targets.csv for targets");
+  program.option("--nodes", job.nodes, "lines,rooms,odometry,map|targets",
                  "what to run; by default lines, and rooms and odometry where the settings ask for "
                  "them");
   program.flag("--no-wheels", job.no_wheels, "leave the odometry of the bag unused");

@@ -7,8 +7,10 @@
 #include "nodes/room_tracker_config.h"
 #include "nodes/sim_sensor_config.h"
 #include "nodes/sync_scan_driver_config.h"
+#include "nodes/target_tracker_config.h"
 #include "settings_test.h"
 #include "sightline/bridge/bag_from_carmen.h"
+#include "sightline/bridge/bag_from_mrclam.h"
 
 namespace sightline::test {
 namespace {
@@ -18,7 +20,8 @@ using OfTheNodes =
                    nodes::LineExtractorNodeConfig, nodes::RoomTrackerNodeConfig,
                    nodes::SimSensorConfig, nodes::SimRobotConfig, nodes::SimMoverConfig,
                    nodes::SimScannerConfig, nodes::SimActiveSensorConfig,
-                   nodes::SyncScanDriverConfig, bridge::CarmenBagOptions>;
+                   nodes::SyncScanDriverConfig, nodes::TargetTrackerNodeConfig,
+                   bridge::CarmenBagOptions, bridge::MrclamBagOptions>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Nodes, EverySetting, OfTheNodes);
 
 }  // namespace

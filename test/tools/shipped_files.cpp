@@ -10,6 +10,7 @@
 #include "nodes/gaze_config.h"
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
+#include "nodes/target_tracker_config.h"
 #include "sightline/pipeline/estimators_config.h"
 #include "sightline/pipeline/scan_odometry.h"
 #include "sightline/simulation/active_sensor_profile.h"
@@ -87,10 +88,15 @@ TEST(ShippedFiles, Replay) {
   expectToLoad("config/replay", pipeline::EstimatorsConfig::readFile);
 }
 
+TEST(ShippedFiles, BearingSensors) {
+  expectToLoad("config/bearing_sensors", targets::SensorModelsConfig::readFile);
+}
+
 TEST(ShippedFiles, Parameters) {
   expectParameters<nodes::LineExtractorNodeConfig>("line_extractor.yaml");
   expectParameters<nodes::GazeNodeConfig>("gaze.yaml");
   expectParameters<nodes::RoomTrackerNodeConfig>("room_tracker.yaml");
+  expectParameters<nodes::TargetTrackerNodeConfig>("target_tracker.yaml");
 }
 
 TEST(ShippedFiles, EveryConfigurationHasARoomAbove) {
@@ -105,7 +111,9 @@ TEST(ShippedFiles, EveryConfigurationHasARoomAbove) {
                                          "carriers",
                                          "gaze.yaml",
                                          "line_extractor.yaml",
-                                         "room_tracker.yaml"};
+                                         "room_tracker.yaml",
+                                         "bearing_sensors",
+                                         "target_tracker.yaml"};
     EXPECT_NE(std::find(known.begin(), known.end(), folder), known.end())
         << file << " is loaded by no test";
   }

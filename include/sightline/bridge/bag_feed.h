@@ -23,6 +23,9 @@ namespace sightline::bridge {
 /// Static transforms of the mountings of the scanners on the base.
 tf2_msgs::TFMessage mountingTransforms(const pipeline::EstimatorsConfig& config);
 
+/// Opens a bag to read it. Throws config::Error that says which file is at fault, and what helps.
+void openToRead(rosbag::Bag& bag, const std::string& path);
+
 /// A feed over recordings, read as one in the order of their time, with little memory however long
 /// they are. Its clock is the time of the bags. Topics are found with and without a leading slash.
 class BagFeed {

@@ -13,6 +13,7 @@
 #include "sightline/motion/floor.h"
 #include "sightline/pipeline/feed_config.h"
 #include "sightline/pipeline/scan_odometry.h"
+#include "sightline/pipeline/targets_config.h"
 #include "sightline/tracking/tracker_config.h"
 
 namespace sightline::pipeline {
@@ -79,6 +80,7 @@ struct InputConfig {
 /// carrier: ../carriers/body_worn.yaml    # settings of leans, floor and odometry
 /// odometry: {max_gap: 1.0}               # ScanOdometryConfig; goes before the carrier's file.
 ///                                        # Without either: no odometry from scans
+/// targets: {robots: [robot1, robot2]}    # TargetsConfig; left out: no target tracker
 /// ```
 struct EstimatorsConfig {
   InputConfig input;
@@ -88,6 +90,7 @@ struct EstimatorsConfig {
   lines::FeatureTrackerConfig features;
   std::optional<RoomsConfig> rooms;
   std::optional<ScanOdometryConfig> odometry;
+  std::optional<TargetsConfig> targets;
   std::string carrier;  ///< path of a file with settings that depend on who carries the scanner
 
   void visit(config::FieldVisitor& visitor);

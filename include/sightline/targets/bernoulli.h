@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sightline/geometry/pose2.h"
+#include "sightline/targets/bearing_set.h"
+#include "sightline/targets/sensor_model.h"
+
+namespace sightline::targets {
+
+/// A Gaussian of a mixture.
+struct Component {
+  double weight = 1.0;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();            ///< in the map [m]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [m²]
+  bool is_moving = false;  ///< whether it walks at random instead of standing still
+};
+using Mixture = std::vector<Component>;
+
+/// Whether a robot can see a target at present, as it has seen or missed it before.
+struct Visibility {
+  double probability = 1.0;
+  std::int64_t stamp = 0;  ///< [ns]
+};
+
+/// A target that may exist.
+struct Bernoulli {
+  double existence = 0.0;
+  Mixture mixture;                     ///< weights sum to one
+  std::int64_t stamp = 0;              ///< to which it has been predicted [ns]
+  std::uint32_t label = 0;             ///< 0: never reported yet
+  std::vector<Visibility> visibility;  ///< by robot
+};
+
+/// Bearing of a point from an uncertain pose, linearised.
+struct BearingPrediction {
+  Polar polar;            ///< of the component's mean
+  Eigen::Vector2d gain;   ///< P Hᵀ [m rad]
+  double variance = 0.0;  ///< of the innovation: point, pose and sensor [rad²]
+};
+
+/// Bearing of a point and its derivatives by point and by pose (x, y, θ).
+struct BearingJacobians {
+  Polar polar;
+  Eigen::RowVector2d point;
+  Eigen::RowVector3d pose;
+};
+BearingJacobians bearingJacobians(const Eigen::Vector2d& point_map,
+                                  const geometry::Pose2& T_map_sensor);
+
+BearingPrediction predictBearing(const Component& component,
+                                 const geometry::UncertainPose2& T_map_sensor, double sigma);
+/// The component after a bearing that differs by `innovation` [rad] from the predicted one.
+Component updated(const Component& component, const BearingPrediction& prediction,
+                  double innovation);
+
+/// Merges components that lie within `distance` (Mahalanobis, squared) of a heavier one in the same
+/// mode, drops those lighter than `least`, keeps the `most` heaviest, and makes the weights sum to
+/// one.
+void reduce(Mixture& mixture, double distance, double least, std::size_t most);
+
+/// Mean and covariance of a mixture.
+UncertainPoint momentsOf(const Mixture& mixture);
+
+}  // namespace sightline::targets

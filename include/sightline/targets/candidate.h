@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "sightline/targets/look.h"
+
+namespace sightline::targets {
+
+/// A target that a look may see, with its weights for every measurement of the look.
+class Candidate {
+ public:
+  Candidate(std::size_t index, const Bernoulli& bernoulli, const Look& look);
+
+  std::size_t index() const { return index_; }     ///< of the Bernoulli
+  double detection() const { return detection_; }  ///< probability where it exists
+  /// Weight of being seen as measurement m over that of not being seen, r ∫ p_d g / (1 − r p_d).
+  double ratio(std::size_t measurement) const;
+  /// The target afterwards, by the marginal probabilities of being each measurement.
+  void apply(const Eigen::RowVectorXd& assigned, Bernoulli& bernoulli) const;
+
+ private:
+  double weight(std::size_t measurement, std::size_t component) const {
+    return weights_[measurement * predictions_.size() + component];
+  }
+  void addMissed(const Bernoulli& bernoulli, double probability, Mixture& mixture) const;
+  void addSeen(const Bernoulli& bernoulli, std::size_t measurement, double probability,
+               Mixture& mixture) const;
+
+  const Look& look_;
+  std::size_t index_;
+  double existence_;
+  double visible_;  // probability that the robot can see it at present
+  double detection_ = 0.0;
+  std::vector<BearingPrediction> predictions_;  // by component
+  std::vector<double> detections_;              // by component, where it exists
+  std::vector<double> weights_;                 // of measurement and component: w p_d g
+  std::vector<double> sums_;                    // by measurement, over components
+};
+
+/// Whether any of a target's Gaussians reaches into the look's range.
+bool mayBeSeen(const Bernoulli& bernoulli, const Look& look);
+/// Notes that the look's robot can see the target now.
+void noteVisible(Bernoulli& bernoulli, const Look& look);
+/// The mixture with a share of it moving.
+Mixture withModes(Mixture mixture, double moving_share);
+double movingShare(const Mixture& mixture);
+/// Adds a target's density to the cells of a grid [1/m²].
+void addDensity(const Bernoulli& bernoulli, IntensityGrid& grid);
+
+}  // namespace sightline::targets

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sightline/targets/labelling.h"
+#include "sightline/targets/paper_fit.h"
+
+namespace sightline::targets {
+
+/// A parameter by maximum likelihood with its 95 % interval (profile likelihood).
+struct Fitted {
+  double value = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+  bool is_determined = false;  ///< false: the interval is not closed, the value means nothing
+};
+
+/// Detection model, dames eq. 1, and whether it holds.
+struct DetectionLikelihood {
+  Fitted false_negative;
+  Fitted target_diameter;  ///< [m]
+  double deviance = 0.0;   ///< of the model against the share of each 0.2 m bin
+  double limit = 0.0;      ///< that a model which holds exceeds once in a thousand
+  bool isRefused() const { return deviance > limit; }
+};
+/// `inflation` (1 or more): variance of counts over that of independent looks.
+DetectionLikelihood fitDetectionLikelihood(const std::vector<Opportunity>& opportunities,
+                                           double beam_spacing, double inflation);
+
+/// Clutter model, dames eq. 3.
+struct ClutterLikelihood {
+  Fitted mean;
+  Fitted peak_width;
+  Fitted uniform_share;
+};
+/// Peaks beyond the field of view, or none that stand out, leave width and share undetermined.
+ClutterLikelihood fitClutterLikelihood(const std::vector<ClutterBearing>& clutter,
+                                       const FieldOfView& view, std::size_t looks);
+
+/// Measurement model, dames eq. 2, with what real sensors need besides.
+struct ErrorFit {
+  double sigma = 0.0;      ///< of the core [rad]
+  double bias = 0.0;       ///< [rad]
+  double lag = 0.0;        ///< [s]
+  double lag_sigma = 0.0;  ///< standard deviation of the lag [s]
+  double tail = 1.0;       ///< standard deviation of all errors over that of the core
+  std::size_t used = 0;
+};
+/// A Gaussian, one 2.5 times as wide and an even background by expectation maximisation, within
+/// `gate` [rad]; the lag by regression of errors on the turn rate. Errors are those of labels
+/// without bias and lag.
+ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
+                   double gate);
+
+}  // namespace sightline::targets

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sightline/config/fields.h"
+#include "sightline/geometry/angle.h"
+
+namespace sightline::targets {
+
+/// Bearings at which a sensor sees, both ends included [rad], |·| ≤ π.
+struct FieldOfView {
+  double min = -0.75 * geometry::kPi;
+  double max = 0.75 * geometry::kPi;
+
+  bool contains(double bearing) const { return bearing >= min && bearing <= max; }
+  double width() const { return max - min; }
+  /// What both see; empty (min > max) where that is nothing.
+  FieldOfView within(const FieldOfView& other) const;
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// Probability of detection by range and bearing, constant in each bin, in place of the formula of
+/// dames eq. 1; none outside of its edges.
+struct DetectionTable {
+  std::vector<double> range_edges;    ///< rising [m]
+  std::vector<double> bearing_edges;  ///< rising [rad]
+  std::vector<double> probabilities;  ///< one a bin, ranges outside, bearings inside
+
+  double at(double range, double bearing) const;
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// Detection model, dames eq. 1.
+struct DetectionConfig {
+  double false_negative = 0.21;                  ///< p_fn
+  double target_diameter = 0.032512;             ///< d_t, 1.28 in [m]
+  double beam_spacing = geometry::radians(1.0);  ///< θ_sep [rad]
+  double range_min = 0.0;                        ///< [m]
+  double range_max = 5.0;                        ///< r_max [m]
+  std::optional<DetectionTable> table;
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// Correlation of the detections of one target by one robot from look to look: for a while a target
+/// is one that the robot can see, or one that it cannot (a bump, a blind side, somebody between).
+struct VisibilityConfig {
+  double share = 1.0;  ///< of the time in which a target can be seen, (0, 1]; 1: independent looks
+  double duration = 5.0;  ///< time in which it is forgotten which of both [s]
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// Measurement model, dames eq. 2.
+struct BearingConfig {
+  double sigma = geometry::radians(2.25);  ///< standard deviation [rad]
+  double bias = 0.0;                       ///< measured less true bearing [rad]
+  double tail = 1.0;  ///< factor on σ in filters, for errors with heavier tails than a Gaussian
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// Clutter model, dames eq. 3: Poisson in number.
+struct ClutterConfig {
+  double mean = 0.5319;                     ///< μ, clutter measurements a look
+  double uniform_share = 0.725;             ///< p_u
+  double peak_width = 0.2 * geometry::kPi;  ///< θ_c, of the peaks at ±π/2 [rad]
+
+  void visit(config::FieldVisitor& visitor);
+};
+
+/// Models of one bearing-only sensor, as YAML that characterize_bearing_sensor writes and
+/// simulation and filter read. Defaults are the values of the paper, with the beam spacing of 1° by
+/// which they are determined.
+struct SensorModelConfig {
+  FieldOfView field_of_view;
+  DetectionConfig detection;
+  VisibilityConfig visibility;
+  BearingConfig bearing;
+  ClutterConfig clutter;
+
+  void visit(config::FieldVisitor& visitor);
+  /// Throws config::Error naming `source` where a value is out of range, or where a density does
+  /// not integrate to what it must: peaks of clutter beyond the field of view, a table that is
+  /// none.
+  void check(const std::string& source = "") const;
+  static SensorModelConfig readFile(const std::string& path);
+};
+
+}  // namespace sightline::targets

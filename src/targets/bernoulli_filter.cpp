@@ -1,0 +1,171 @@
+#include "sightline/targets/bernoulli_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sightline/targets/belief_propagation.h"
+#include "sightline/targets/candidate.h"
+#include "sightline/targets/look.h"
+
+namespace sightline::targets {
+
+namespace {
+
+constexpr double kMergeDistance = 2.0;  // Mahalanobis, squared
+constexpr double kLeastWeight = 1e-4;
+
+double seconds(std::int64_t nanoseconds) {
+  return 1e-9 * static_cast<double>(nanoseconds);
+}
+
+// Weights of targets with measurements over those of both apart (Williams and Lau 2014); below them
+// those of known things, which compete for the measurements.
+Eigen::MatrixXd ratiosOf(const std::vector<Candidate>& candidates, const Look& look,
+                         const std::vector<double>& unknown) {
+  const std::size_t targets = candidates.size();
+  Eigen::MatrixXd ratio(targets + look.knownCount(), unknown.size());
+  for (std::size_t i = 0; i < targets + look.knownCount(); ++i) {
+    for (std::size_t m = 0; m < unknown.size(); ++m) {
+      const double weight = i < targets ? candidates[i].ratio(m) : look.knownRatio(i - targets, m);
+      ratio(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(m)) = weight / unknown[m];
+    }
+  }
+  return ratio;
+}
+
+}  // namespace
+
+void BernoulliFilterConfig::visit(config::FieldVisitor& visitor) {
+  visitor.group("undetected", undetected);
+  visitor.integer("ranges", ranges,
+                  {"-", {1, 32}, "Gaussians that a bearing starts, log-spaced in range"});
+  visitor.integer("components", components, {"-", {1, 64}, "most Gaussians kept of a target"});
+  visitor.number("nearest", nearest,
+                 {"m", {0.01, 100.0}, "range at which the Gaussians of a bearing begin"});
+  visitor.number("static_noise", static_noise,
+                 {"m^2/s", {0.0, 1e6}, "variance that a standing target gains"});
+  visitor.number("moving_share", moving_share,
+                 {"1", {0.0, 1.0}, "probability that a new target moves; 0: all stand"});
+  visitor.number("moving_noise", moving_noise,
+                 {"m^2/s", {0.0, 1e6}, "variance that a moving target gains"});
+  visitor.number("lifetime", lifetime, {"s", {1.0, 1e12}, "mean time that a target stays"});
+  visitor.number("cutoff", cutoff,
+                 {"m",
+                  {1e-6, 1e6},
+                  "a target is reported where a miss would cost more than a false report, which "
+                  "costs as much as an error of this length"});
+  visitor.number("least_existence", least_existence,
+                 {"1", {1e-9, 0.1}, "probability below which a target is given up"});
+}
+
+BernoulliFilter::BernoulliFilter(const BernoulliFilterConfig& config)
+    : config_(config), undetected_(config.undetected) {
+  config::validate(config_);
+  config_.undetected.check("");
+}
+
+void BernoulliFilter::predict(Bernoulli& bernoulli) const {
+  const double duration = seconds(stamp_ - bernoulli.stamp);
+  if (duration <= 0.0) return;
+  bernoulli.stamp = stamp_;
+  bernoulli.existence *= std::exp(-duration / config_.lifetime);
+  for (Component& component : bernoulli.mixture) {
+    const double noise = component.is_moving ? config_.moving_noise : config_.static_noise;
+    component.covariance.diagonal().array() += noise * duration;
+  }
+}
+
+std::vector<Candidate> BernoulliFilter::candidatesOf(const Look& look) {
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < bernoullis_.size(); ++i) {
+    if (!mayBeSeen(bernoullis_[i], look)) continue;
+    predict(bernoullis_[i]);
+    Candidate candidate(i, bernoullis_[i], look);
+    if (candidate.detection() > 0.0) candidates.push_back(std::move(candidate));
+  }
+  return candidates;
+}
+
+void BernoulliFilter::update(const BearingSet& set, const SensorModel& model) {
+  stamp_ = std::max(stamp_, set.stamp);
+  const Look look(set, model);
+  std::vector<Candidate> candidates = candidatesOf(look);
+  std::vector<Birth> births;
+  std::vector<double> unknown;
+  for (std::size_t m = 0; m < look.size(); ++m) {
+    births.push_back(birthAlong(look, m, undetected_, config_.ranges, config_.nearest));
+    unknown.push_back(std::max(births.back().mass + look.clutter(m), 1e-12));
+  }
+  const Association association = associate(ratiosOf(candidates, look, unknown));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    Bernoulli& bernoulli = bernoullis_[candidates[i].index()];
+    candidates[i].apply(association.assigned.row(static_cast<Eigen::Index>(i)), bernoulli);
+    reduce(bernoulli.mixture, kMergeDistance, kLeastWeight,
+           static_cast<std::size_t>(config_.components));
+  }
+  for (std::size_t m = 0; m < look.size(); ++m) {
+    const double share = births[m].mass / unknown[m];
+    add(std::move(births[m]), share * association.unassigned[static_cast<Eigen::Index>(m)], look);
+  }
+  undetected_.look(set.T_map_sensor.mean, model, look.fieldOfView());
+  prune();
+  label();
+}
+
+void BernoulliFilter::add(Birth birth, double existence, const Look& look) {
+  if (existence < config_.least_existence) return;
+  Bernoulli bernoulli;
+  bernoulli.existence = existence;
+  bernoulli.stamp = stamp_;
+  bernoulli.mixture = withModes(std::move(birth.mixture), config_.moving_share);
+  noteVisible(bernoulli, look);
+  bernoullis_.push_back(std::move(bernoulli));
+}
+
+void BernoulliFilter::prune() {
+  const auto is_unlikely = [&](const Bernoulli& bernoulli) {
+    if (bernoulli.existence >= config_.least_existence) return false;
+    undetected_.add(bernoulli.mixture.front().mean, bernoulli.existence);
+    return true;
+  };
+  bernoullis_.erase(std::remove_if(bernoullis_.begin(), bernoullis_.end(), is_unlikely),
+                    bernoullis_.end());
+}
+
+// A report of a target that is there, at a distance d from where it is, costs d and saves the
+// cut-off c; of one that is not, it costs c: it pays where r (c − d) > (1 − r) c.
+bool BernoulliFilter::isReported(const Bernoulli& bernoulli) const {
+  const double error = std::sqrt(momentsOf(bernoulli.mixture).covariance.trace());
+  const double gain = std::max(config_.cutoff - error, 0.0);
+  return bernoulli.existence * gain > (1.0 - bernoulli.existence) * config_.cutoff;
+}
+
+void BernoulliFilter::label() {
+  for (Bernoulli& bernoulli : bernoullis_) {
+    if (bernoulli.label == 0 && isReported(bernoulli)) bernoulli.label = ++labels_;
+  }
+}
+
+TargetEstimate BernoulliFilter::estimate() {
+  TargetEstimate result;
+  result.stamp = stamp_;
+  result.expected_undetected = undetected_.mass();
+  for (const Bernoulli& bernoulli : bernoullis_) {
+    const double existence = bernoulli.existence;
+    result.expected_number += existence;
+    result.number_variance += existence * (1.0 - existence);
+    if (bernoulli.label == 0 || !isReported(bernoulli)) continue;
+    result.targets.push_back({bernoulli.label, bernoulli.mixture.front().mean,
+                              momentsOf(bernoulli.mixture).covariance, existence,
+                              movingShare(bernoulli.mixture)});
+  }
+  return result;
+}
+
+IntensityGrid BernoulliFilter::intensity() const {
+  IntensityGrid grid = undetected_.grid();
+  for (const Bernoulli& bernoulli : bernoullis_) addDensity(bernoulli, grid);
+  return grid;
+}
+
+}  // namespace sightline::targets

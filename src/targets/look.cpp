@@ -1,0 +1,166 @@
+#include "sightline/targets/look.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sightline::targets {
+
+namespace {
+
+// Spread below which the probability of detection hardly differs over a component [m].
+constexpr double kSmallSpread = 0.15;
+constexpr double kSqrtTwo = 1.4142135623730951;
+
+double gaussian(double error, double variance) {
+  return std::exp(-0.5 * error * error / variance) / std::sqrt(2.0 * geometry::kPi * variance);
+}
+
+// Lower triangular factor of a covariance.
+Eigen::Matrix2d rootOf(const Eigen::Matrix2d& covariance) {
+  Eigen::Matrix2d root = Eigen::Matrix2d::Zero();
+  root(0, 0) = std::sqrt(std::max(covariance(0, 0), 1e-12));
+  root(1, 0) = covariance(1, 0) / root(0, 0);
+  root(1, 1) = std::sqrt(std::max(covariance(1, 1) - root(1, 0) * root(1, 0), 1e-12));
+  return root;
+}
+
+}  // namespace
+
+Look::Look(const BearingSet& set, const SensorModel& model)
+    : set_(set),
+      model_(model),
+      T_sensor_map_(set.T_map_sensor.mean.inverse()),
+      field_of_view_(set.field_of_view.within(model.config().field_of_view)),
+      sigma_(std::max(model.config().bearing.sigma * model.config().bearing.tail, set.sigma)) {
+  for (const double bearing : set.bearings) {
+    bearings_.push_back(geometry::wrapAngle(bearing - model.config().bearing.bias));
+    clutter_.push_back(model.clutter(bearings_.back(), set.T_map_sensor.mean));
+  }
+  for (const UncertainPoint& point : set.known) {
+    const Component component{1.0, point.mean, point.covariance, false};
+    const BearingPrediction prediction = predictBearing(component, pose(), sigma_);
+    const double detected = detection(prediction.polar);
+    if (detected > 0.0) known_.push_back({prediction, detected});
+  }
+}
+
+double Look::knownRatio(std::size_t known, std::size_t measurement) const {
+  const Known& thing = known_[known];
+  return thing.detection * likelihood(measurement, thing.prediction) /
+         (1.0 - std::min(thing.detection, 0.99));
+}
+
+double Look::knownDensity(std::size_t measurement) const {
+  double density = 0.0;
+  for (const Known& thing : known_) {
+    density += thing.detection * likelihood(measurement, thing.prediction);
+  }
+  return density;
+}
+
+double Look::detection(const Polar& place) const {
+  if (place.range > set_.range_max || !field_of_view_.contains(place.bearing)) return 0.0;
+  return model_.detection(place);
+}
+
+double Look::detectionAt(const Eigen::Vector2d& point_map) const {
+  return detection(polarOf(T_sensor_map_ * point_map));
+}
+
+double Look::detection(const Component& component, const Polar& mean) const {
+  if (!model_.isInSight(component.mean, pose().mean)) return 0.0;
+  if (component.covariance.trace() < kSmallSpread * kSmallSpread) return detection(mean);
+  const Eigen::Matrix2d root = kSqrtTwo * rootOf(component.covariance);
+  double sum = 0.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    sum += detectionAt(component.mean + root.col(axis));
+    sum += detectionAt(component.mean - root.col(axis));
+  }
+  return 0.25 * sum;
+}
+
+double Look::likelihood(std::size_t measurement, const BearingPrediction& prediction) const {
+  constexpr double kGate = 25.0;
+  const double error = geometry::wrapAngle(bearings_[measurement] - prediction.polar.bearing);
+  if (error * error > kGate * prediction.variance) return 0.0;
+  return gaussian(error, prediction.variance);
+}
+
+namespace {
+
+struct RangeSpan {
+  double from;
+  double to;
+};
+
+// Mass of undetected targets in a span, and the range of its middle, weighed by it.
+struct SpanMass {
+  double mass = 0.0;
+  double range = 0.0;
+};
+
+SpanMass massOf(const RangeSpan& span, const Look& look, double bearing,
+                const Undetected& undetected) {
+  constexpr int kSamples = 4;
+  const geometry::Pose2& sensor = look.pose().mean;
+  const Eigen::Vector2d direction(std::cos(sensor.theta() + bearing),
+                                  std::sin(sensor.theta() + bearing));
+  const double step = (span.to - span.from) / kSamples;
+  SpanMass result;
+  for (int i = 0; i < kSamples; ++i) {
+    const double range = span.from + (i + 0.5) * step;
+    const Eigen::Vector2d point = sensor.translation() + range * direction;
+    const double detection = look.detection(Polar{range, bearing});
+    if (detection == 0.0 || !look.model().isInSight(point, sensor)) continue;
+    const double mass = undetected.at(point) * detection * range * step;
+    result.mass += mass;
+    result.range += mass * range;
+  }
+  if (result.mass > 0.0) result.range /= result.mass;
+  return result;
+}
+
+// Covers the span along the bearing, and the bearing's error and that of the pose across.
+Component componentOf(const RangeSpan& span, const SpanMass& mass, const Look& look,
+                      double bearing) {
+  const geometry::UncertainPose2& pose = look.pose();
+  const double direction = pose.mean.theta() + bearing;
+  const Eigen::Vector2d along(std::cos(direction), std::sin(direction));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const double length = (span.to - span.from) / std::sqrt(12.0);
+  const double width = mass.range * look.sigma();
+  Component component;
+  component.weight = mass.mass;
+  component.mean = pose.mean.translation() + mass.range * along;
+  component.covariance =
+      length * length * along * along.transpose() + width * width * across * across.transpose();
+  const Eigen::Matrix<double, 2, 3> by_pose =
+      (Eigen::Matrix<double, 2, 3>() << Eigen::Matrix2d::Identity(), mass.range * across)
+          .finished();
+  component.covariance += by_pose * pose.covariance * by_pose.transpose();
+  return component;
+}
+
+}  // namespace
+
+Birth birthAlong(const Look& look, std::size_t measurement, const Undetected& undetected, int count,
+                 double nearest) {
+  const DetectionConfig& detection = look.model().config().detection;
+  const double first = std::max(nearest, detection.range_min);
+  const double last = std::min(detection.range_max, look.set().range_max);
+  Birth birth;
+  if (first >= last) return birth;
+  const double ratio = std::pow(last / first, 1.0 / count);
+  const double bearing = look.bearing(measurement);
+  RangeSpan span{first, first * ratio};
+  for (int i = 0; i < count; ++i, span = {span.to, span.to * ratio}) {
+    const SpanMass mass = massOf(span, look, bearing, undetected);
+    if (mass.mass <= 0.0) continue;
+    birth.mass += mass.mass;
+    birth.mixture.push_back(componentOf(span, mass, look, bearing));
+  }
+  for (Component& component : birth.mixture) component.weight /= birth.mass;
+  return birth;
+}
+
+}  // namespace sightline::targets

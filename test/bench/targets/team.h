@@ -1,0 +1,191 @@
+#pragma once
+
+#include <cmath>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "figures.h"
+#include "sightline/logs/ospa.h"
+#include "sightline/targets/bernoulli_filter.h"
+#include "sightline/targets/oracle.h"
+#include "sightline/targets/phd_filter.h"
+#include "sightline/targets/simulated_team.h"
+
+namespace sightline::bench {
+
+using FilterMaker = std::function<std::unique_ptr<targets::TargetFilter>()>;
+
+inline FilterMaker defaultFilter(double size = 20.0) {
+  return [size] {
+    targets::BernoulliFilterConfig config;
+    config.undetected.area = {0.0, 0.0, size, size};
+    return std::make_unique<targets::BernoulliFilter>(config);
+  };
+}
+
+inline FilterMaker papersFilter() {
+  return [] {
+    targets::PhdFilterConfig config;
+    config.undetected.area = {0.0, 0.0, 20.0, 20.0};
+    return std::make_unique<targets::PhdFilter>(config);
+  };
+}
+
+/// Means over seeds at 60, 300 and 600 s.
+struct TeamFigures {
+  double ospa[3] = {};
+  double oracle[3] = {};
+  double number_error = 0.0;  // reported less true, absolute, at 600 s
+  double number_bias = 0.0;   // signed
+  double mass_error = 0.0;    // expected less true, absolute
+  double mass_bias = 0.0;
+  double us_per_set = 0.0;
+};
+
+/// `told` is the model that the filter is given; the team's own where there is none.
+inline TeamFigures runTeam(const targets::TeamConfig& config, const FilterMaker& make, int seeds,
+                           const targets::SensorModelConfig* told = nullptr, int seconds = 600) {
+  constexpr int kMoments[] = {60, 300, 600};
+  TeamFigures figures;
+  double busy = 0.0;
+  double sets = 0.0;
+  const targets::SensorModel model(told ? *told : config.model);
+  for (int seed = 0; seed < seeds; ++seed) {
+    targets::SimulatedTeam team(config, 1000 + static_cast<std::uint64_t>(seed));
+    const auto filter = make();
+    targets::Oracle oracle;
+    for (int second = 0; second <= seconds; ++second) {
+      const auto looks = team.step();
+      const std::clock_t began = std::clock();  // of this process: others run beside it
+      for (const auto& look : looks) filter->update(look.set, model);
+      busy += static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+      sets += static_cast<double>(looks.size());
+      for (const auto& look : looks) oracle.update(look.set, team.model(), look.origins);
+      for (int i = 0; i < 3; ++i) {
+        if (second != kMoments[i]) continue;
+        const auto estimate = filter->estimate();
+        logs::Points places;
+        for (const auto& target : estimate.targets) places.push_back(target.mean);
+        figures.ospa[i] += logs::ospa(team.targets(), places) / seeds;
+        figures.oracle[i] += logs::ospa(team.targets(), oracle.estimate()) / seeds;
+        if (i < 2) continue;
+        const double bias = static_cast<double>(places.size()) - config.targets;
+        const double mass = estimate.expected_number - config.targets;
+        figures.number_bias += bias / seeds;
+        figures.number_error += std::abs(bias) / seeds;
+        figures.mass_bias += mass / seeds;
+        figures.mass_error += std::abs(mass) / seeds;
+      }
+    }
+  }
+  figures.us_per_set = 1e6 * busy / sets;
+  return figures;
+}
+
+inline void printTeam(const std::string& name, const TeamFigures& figures) {
+  fmt::print("# {}: oracle {:.3f}, {:.3f}, {:.3f} m at 60, 300, 600 s\n", name, figures.oracle[0],
+             figures.oracle[1], figures.oracle[2]);
+  print(name + ".ospa_60s_excess", figures.ospa[0] - figures.oracle[0], "m");
+  print(name + ".ospa_300s", figures.ospa[1], "m");
+  print(name + ".ospa_600s", figures.ospa[2], "m");
+  print(name + ".cardinality_error_600s", figures.number_error, "targets");
+  print(name + ".mass_error_600s", figures.mass_error, "targets");
+}
+
+inline void measureTeams(int seeds) {
+  targets::TeamConfig team;
+  const TeamFigures plain = runTeam(team, defaultFilter(), seeds);
+  printTeam("targets.team", plain);
+  print("targets.us_per_set", plain.us_per_set, "us");
+  targets::TeamConfig off = team;
+  off.position_sigma = 0.05;
+  off.heading_sigma = geometry::radians(1.0);
+  printTeam("targets.team_offset", runTeam(off, defaultFilter(), seeds));
+  targets::TeamConfig correlated = team;
+  correlated.model.visibility = {0.95, 20.0};
+  printTeam("targets.team_correlated", runTeam(correlated, defaultFilter(), seeds));
+  targets::SensorModelConfig untold = correlated.model;
+  untold.visibility = {};
+  printTeam("targets.team_correlated_untold", runTeam(correlated, defaultFilter(), seeds, &untold));
+  const TeamFigures phd = runTeam(team, papersFilter(), seeds);
+  printTeam("targets.team_phd", phd);
+  print("targets.team_phd.us_per_set", phd.us_per_set, "us");
+}
+
+/// Section 3.4 of dames: what a wrong model does to the number of targets.
+inline void measureWrongModels(int seeds) {
+  struct Wrong {
+    const char* name;
+    std::function<void(targets::SensorModelConfig&, double)> change;
+  };
+  const Wrong wrongs[] = {
+      {"p_d",
+       [](auto& model, double factor) {
+         auto& detection = model.detection;
+         detection.false_negative = std::max(0.0, 1.0 - factor * (1.0 - detection.false_negative));
+       }},
+      {"sigma", [](auto& model, double factor) { model.bearing.sigma *= factor; }},
+      {"mu", [](auto& model, double factor) { model.clutter.mean *= factor; }}};
+  const targets::TeamConfig team;
+  const auto show = [&](const std::string& name, const targets::SensorModelConfig& told) {
+    const TeamFigures bernoulli = runTeam(team, defaultFilter(), seeds, &told);
+    const TeamFigures phd = runTeam(team, papersFilter(), seeds, &told);
+    print("targets.wrong." + name + ".ospa_600s", bernoulli.ospa[2], "m");
+    print("targets.wrong." + name + ".number_bias", bernoulli.number_bias, "targets");
+    print("targets.wrong." + name + ".phd_ospa_600s", phd.ospa[2], "m");
+    print("targets.wrong." + name + ".phd_mass_bias", phd.mass_bias, "targets");
+  };
+  for (const Wrong& wrong : wrongs) {
+    for (const double factor : {0.5, 1.5}) {
+      targets::SensorModelConfig told = team.model;
+      wrong.change(told, factor);
+      show(fmt::format("{}_x{}", wrong.name, factor), told);
+    }
+  }
+  targets::SensorModelConfig flat = team.model;
+  flat.detection.false_negative = 0.2;
+  flat.detection.target_diameter = 10.0;
+  flat.detection.range_max = 15.0;
+  show("flat", flat);
+}
+
+inline void measureScale(int seeds) {
+  constexpr int kSeconds = 300;
+  for (const int count : {5, 15, 50, 150}) {
+    targets::TeamConfig team;
+    team.targets = count;
+    team.size = 20.0 * std::sqrt(count / 15.0);
+    const auto figures = runTeam(team, defaultFilter(team.size), seeds, nullptr, kSeconds);
+    print(fmt::format("targets.scale.us_per_set_{}_targets", count), figures.us_per_set, "us");
+  }
+  for (const int count : {1, 3, 10, 30}) {
+    targets::TeamConfig team;
+    team.robots = count;
+    const auto figures = runTeam(team, defaultFilter(), seeds, nullptr, kSeconds);
+    print(fmt::format("targets.scale.us_per_set_{}_robots", count), figures.us_per_set, "us");
+  }
+}
+
+inline void measureClutter() {
+  constexpr int kScans = 2000000;
+  const targets::SensorModel model;
+  targets::BearingSampler sampler(model, 1);
+  double count = 0.0;
+  double in_peaks = 0.0;
+  for (int i = 0; i < kScans; ++i) {
+    const int drawn = sampler.clutterCount();
+    count += drawn;
+    for (int j = 0; j < drawn; ++j) {
+      const double off = std::abs(std::abs(sampler.clutterBearing()) - 0.5 * geometry::kPi);
+      if (off <= 0.5 * model.config().clutter.peak_width) in_peaks += 1.0;
+    }
+  }
+  print("targets.clutter_mean_ratio", count / kScans / model.clutterMean(), "1");
+  print("targets.clutter_in_peaks", 100.0 * in_peaks / count, "%");
+}
+
+}  // namespace sightline::bench

@@ -1,0 +1,285 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include "monte_carlo.h"
+#include "numeric_jacobian.h"
+#include "sightline/logs/ospa.h"
+#include "sightline/targets/belief_propagation.h"
+#include "sightline/targets/bernoulli_filter.h"
+#include "sightline/targets/oracle.h"
+#include "sightline/targets/phd_filter.h"
+#include "sightline/targets/simulated_team.h"
+
+namespace sightline::targets {
+namespace {
+
+logs::Points placesOf(const TargetEstimate& estimate) {
+  logs::Points places;
+  for (const Target& target : estimate.targets) places.push_back(target.mean);
+  return places;
+}
+
+BearingSet lookFrom(const geometry::Pose2& pose, std::vector<double> bearings, double time = 0.0) {
+  BearingSet set;
+  set.T_map_sensor.mean = pose;
+  set.bearings = std::move(bearings);
+  set.stamp = std::llround(1e9 * time);
+  return set;
+}
+
+double bearingOf(const Eigen::Vector2d& point, const geometry::Pose2& pose) {
+  return polarOf(pose.inverse() * point).bearing;
+}
+
+TEST(Bernoulli, BearingJacobiansAreThoseOfTheBearing) {
+  const Eigen::Vector2d point(2.0, -1.5);
+  const geometry::Pose2 pose(0.3, 0.4, 2.0);
+  const BearingJacobians jacobians = bearingJacobians(point, pose);
+  const auto of_point = test::numericJacobian<1, 2>(
+      [&](const Eigen::Vector2d& p) { return Eigen::Matrix<double, 1, 1>(bearingOf(p, pose)); },
+      point);
+  const auto of_pose = test::numericJacobian<1, 3>(
+      [&](const Eigen::Vector3d& q) {
+        return Eigen::Matrix<double, 1, 1>(bearingOf(point, geometry::Pose2(q)));
+      },
+      pose.coordinates());
+  EXPECT_LT((jacobians.point - of_point).norm(), 1e-8);
+  EXPECT_LT((jacobians.pose - of_pose).norm(), 1e-8);
+}
+
+TEST(Bernoulli, MergingKeepsMeanAndCovariance) {
+  test::Gauss gauss(3);
+  Mixture mixture;
+  for (int i = 0; i < 5; ++i) {
+    mixture.push_back({0.2, {gauss(0.3), gauss(0.3)}, Eigen::Matrix2d::Identity(), false});
+  }
+  const UncertainPoint before = momentsOf(mixture);
+  reduce(mixture, 100.0, 0.0, 8);
+  ASSERT_EQ(mixture.size(), 1U);
+  EXPECT_LT((mixture[0].mean - before.mean).norm(), 1e-12);
+  EXPECT_LT((mixture[0].covariance - before.covariance).norm(), 1e-12);
+}
+
+TEST(Bernoulli, StandingAndMovingStayApart) {
+  Mixture mixture{{0.5, {0.0, 0.0}, Eigen::Matrix2d::Identity(), false},
+                  {0.5, {0.0, 0.0}, Eigen::Matrix2d::Identity(), true}};
+  reduce(mixture, 100.0, 0.0, 8);
+  EXPECT_EQ(mixture.size(), 2U);
+}
+
+// All ways to give two targets two measurements, one to one, by their weights.
+TEST(BeliefPropagation, IsExactForOneTargetAndNearForTwo) {
+  const Eigen::MatrixXd one = (Eigen::MatrixXd(1, 3) << 2.0, 0.5, 0.1).finished();
+  const Association exact = associate(one);
+  for (int m = 0; m < 3; ++m) EXPECT_NEAR(exact.assigned(0, m), one(0, m) / 3.6, 1e-9);
+  EXPECT_NEAR(exact.unassigned[0], 1.6 / 3.6, 1e-4);
+  const Eigen::MatrixXd two = (Eigen::MatrixXd(2, 2) << 3.0, 1.0, 0.5, 2.0).finished();
+  const double both = two(0, 0) * two(1, 1);
+  const double crossed = two(0, 1) * two(1, 0);
+  const double total = 1.0 + two.sum() + both + crossed;
+  const Association near = associate(two);
+  EXPECT_NEAR(near.assigned(0, 0), (two(0, 0) + both) / total, 0.05);
+  EXPECT_NEAR(near.assigned(1, 0), (two(1, 0) + crossed) / total, 0.05);
+}
+
+TEST(BeliefPropagation, TakesEmptySets) {
+  EXPECT_EQ(associate(Eigen::MatrixXd(0, 2)).unassigned.size(), 2);
+  EXPECT_EQ(associate(Eigen::MatrixXd(2, 0)).assigned.rows(), 2);
+  EXPECT_NEAR(associate(Eigen::MatrixXd(0, 2)).unassigned[1], 1.0, 1e-12);
+}
+
+TEST(Undetected, LooksLeaveLessDownToTheFloor) {
+  UndetectedConfig config;
+  config.area = {0.0, 0.0, 10.0, 10.0};
+  Undetected undetected(config);
+  const SensorModel model;
+  const geometry::Pose2 pose(5.0, 5.0, 0.0);
+  undetected.look(pose, model, model.config().field_of_view);
+  EXPECT_NEAR(undetected.at({6.25, 5.25}), config.prior * 0.21, 1e-12);
+  EXPECT_NEAR(undetected.at({3.25, 5.25}), config.prior, 1e-12);
+  EXPECT_EQ(undetected.at({-1.0, 5.0}), 0.0);
+  for (int i = 0; i < 20; ++i) undetected.look(pose, model, model.config().field_of_view);
+  EXPECT_EQ(undetected.at({6.25, 5.25}), config.floor);
+}
+
+TEST(BernoulliFilter, FindsTheOneTargetFromTwoPlaces) {
+  BernoulliFilter filter;
+  const SensorModel model;
+  const Eigen::Vector2d target(2.0, 1.0);
+  for (int i = 0; i < 12; ++i) {
+    const geometry::Pose2 pose(0.25 * i, -1.0, 1.0);
+    filter.update(lookFrom(pose, {bearingOf(target, pose)}, i), model);
+  }
+  const TargetEstimate estimate = filter.estimate();
+  ASSERT_EQ(estimate.targets.size(), 1U);
+  EXPECT_EQ(estimate.targets[0].label, 1U);
+  EXPECT_LT((estimate.targets[0].mean - target).norm(), 0.15);
+  EXPECT_GT(estimate.targets[0].probability, 0.95);
+  EXPECT_NEAR(estimate.expected_number, 1.0, 0.2);
+}
+
+TEST(BernoulliFilter, GivesUpWhatIsNotSeenAgain) {
+  BernoulliFilter filter;
+  const SensorModel model;
+  filter.update(lookFrom({}, {0.3}), model);
+  EXPECT_GT(filter.estimate().expected_number, 0.1);
+  for (int i = 1; i < 30; ++i) filter.update(lookFrom({}, {}, i), model);
+  EXPECT_LT(filter.estimate().expected_number, 0.05);
+}
+
+TEST(BernoulliFilter, TakesOneHiddenSpellForNoAbsence) {
+  SensorModelConfig config;
+  config.visibility = {0.9, 20.0};
+  const SensorModel correlated(config);
+  const SensorModel independent;
+  const Eigen::Vector2d target(2.0, 1.0);
+  for (const bool is_told : {true, false}) {
+    BernoulliFilter filter;
+    const SensorModel& model = is_told ? correlated : independent;
+    for (int i = 0; i < 40; ++i) {
+      const geometry::Pose2 pose(0.1 * i, -1.0, 1.0);
+      const bool is_hidden = i > 25;
+      filter.update(
+          lookFrom(pose,
+                   is_hidden ? std::vector<double>{} : std::vector<double>{bearingOf(target, pose)},
+                   i),
+          model);
+    }
+    EXPECT_EQ(filter.estimate().targets.size(), is_told ? 1U : 0U);
+  }
+}
+
+TEST(BernoulliFilter, ExplainsWhatIsKnown) {
+  const SensorModel model;
+  const Eigen::Vector2d mate(2.0, 1.0);
+  BernoulliFilter filter;
+  for (int i = 0; i < 12; ++i) {
+    const geometry::Pose2 pose(0.25 * i, -1.0, 1.0);
+    BearingSet set = lookFrom(pose, {bearingOf(mate, pose)}, i);
+    set.known.push_back({mate, 0.0025 * Eigen::Matrix2d::Identity()});
+    filter.update(set, model);
+  }
+  EXPECT_TRUE(filter.estimate().targets.empty());
+}
+
+TEST(BernoulliFilter, KnowsWhatMoves) {
+  BernoulliFilterConfig config;
+  config.moving_share = 0.3;
+  config.moving_noise = 0.02;
+  BernoulliFilter filter(config);
+  const SensorModel model;
+  const Eigen::Vector2d standing(2.0, 1.0);
+  for (int i = 0; i < 60; ++i) {
+    const geometry::Pose2 pose(2.0 * std::sin(0.3 * i), -1.0, 1.5);
+    const Eigen::Vector2d walking(-1.5 + 0.05 * i, 2.5);
+    filter.update(lookFrom(pose, {bearingOf(standing, pose), bearingOf(walking, pose)}, i), model);
+  }
+  for (const Target& target : filter.estimate().targets) {
+    const bool is_standing = (target.mean - standing).norm() < 0.5;
+    EXPECT_EQ(target.moving < 0.5, is_standing) << target.mean.transpose();
+  }
+}
+
+TEST(BernoulliFilter, GainsFromPosesThatAreKnownToBeOff) {
+  const SensorModel model;
+  BearingSet exact = lookFrom({}, {0.3});
+  BearingSet vague = exact;
+  vague.T_map_sensor.covariance = Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal();
+  BernoulliFilter by_exact;
+  BernoulliFilter by_vague;
+  by_exact.update(exact, model);
+  by_vague.update(vague, model);
+  EXPECT_GT(momentsOf(by_vague.bernoullis()[0].mixture).covariance.determinant(),
+            1.5 * momentsOf(by_exact.bernoullis()[0].mixture).covariance.determinant());
+}
+
+struct TeamScore {
+  double ospa = 0.0;
+  double oracle = 0.0;
+  double nees = 0.0;  // mean over reported targets
+};
+
+template <class Filter>
+TeamScore runTeam(const TeamConfig& config, Filter& filter, int seconds, std::uint64_t seed) {
+  SimulatedTeam team(config, seed);
+  Oracle oracle;
+  for (int i = 0; i < seconds; ++i) {
+    for (const SimulatedSet& set : team.step()) {
+      filter.update(set.set, team.model());
+      oracle.update(set.set, team.model(), set.origins);
+    }
+  }
+  TeamScore score;
+  const TargetEstimate estimate = filter.estimate();
+  score.ospa = logs::ospa(team.targets(), placesOf(estimate));
+  score.oracle = logs::ospa(team.targets(), oracle.estimate());
+  for (const Target& target : estimate.targets) {
+    double least = 1e9;
+    for (const Eigen::Vector2d& truth : team.targets()) {
+      const Eigen::Vector2d error = target.mean - truth;
+      least = std::min(least, test::normalisedSquare<2>(error, target.covariance));
+    }
+    score.nees += least / static_cast<double>(estimate.targets.size());
+  }
+  return score;
+}
+
+TEST(FilterStatistics, DefaultFilterIsNearTheOracleAndConsistent) {
+  BernoulliFilterConfig config;
+  config.undetected.area = {0.0, 0.0, 20.0, 20.0};
+  double nees = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    BernoulliFilter filter(config);
+    const TeamScore score = runTeam({}, filter, 300, seed);
+    EXPECT_LT(score.ospa, score.oracle + 0.4) << seed;
+    nees += 0.25 * score.nees;
+  }
+  EXPECT_GT(nees, 1.0);
+  EXPECT_LT(nees, 3.5);
+}
+
+TEST(FilterStatistics, PhdFindsMostTargets) {
+  PhdFilterConfig config;
+  config.undetected.area = {0.0, 0.0, 20.0, 20.0};
+  config.particles_per_target = 300;
+  PhdFilter filter(config);
+  const TeamScore score = runTeam({}, filter, 300, 1);
+  EXPECT_LT(score.ospa, 1.0);
+  EXPECT_LT(std::abs(filter.mass() - 15.0), 6.0);
+}
+
+TEST(PhdFilter, MassIsWhatOneLookSays) {
+  PhdFilterConfig config;
+  config.undetected.area = {0.0, 0.0, 20.0, 20.0};
+  PhdFilter filter(config);
+  const SensorModel model;
+  const BearingSet set = lookFrom({10.0, 10.0, 0.0}, {0.3});
+  const Look look(set, model);
+  const Birth birth =
+      birthAlong(look, 0, Undetected(config.undetected), config.ranges, config.nearest);
+  filter.update(set, model);
+  EXPECT_NEAR(filter.mass(), birth.mass / (birth.mass + look.clutter(0)), 1e-9);
+}
+
+TEST(FilterStatistics, ClutterHasItsMeanAndShareInThePeaks) {
+  const SensorModel model;
+  BearingSampler sampler(model, 5);
+  double count = 0.0;
+  double in_peaks = 0.0;
+  constexpr int kScans = 300000;
+  for (int i = 0; i < kScans; ++i) {
+    const int drawn = sampler.clutterCount();
+    count += drawn;
+    for (int j = 0; j < drawn; ++j) {
+      const double off = std::abs(std::abs(sampler.clutterBearing()) - 0.5 * geometry::kPi);
+      if (off <= 0.1 * geometry::kPi) in_peaks += 1.0;
+    }
+  }
+  EXPECT_NEAR(count / kScans / 0.5319, 1.0, 0.01);
+  EXPECT_NEAR(in_peaks / count, 0.468, 0.005);
+}
+
+}  // namespace
+}  // namespace sightline::targets
