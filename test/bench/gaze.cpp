@@ -17,7 +17,7 @@
 int main() {
   using namespace sightline::bench;
   constexpr std::uint64_t kSeeds = 20;
-  turningHead(20 * kSeeds);
+  turningHead(15 * kSeeds);
   fixation(kSeeds);
   features({"alone"}, kSeeds);
   features({"among_movers", true, true}, kSeeds);
