@@ -15,16 +15,24 @@
 /// The room tracker on the log fr079, whole, against its hand-verified relations.
 namespace sightline::bench {
 
-/// The pose for each scan that has one, as `offline` writes it from the bag of `carmen_to_bag
-/// --reverse-from-tv --odometry-delay 0.12`.
-inline logs::Trajectory trackFreiburg(const std::string& log) {
+/// One way of tracking the log.
+struct FreiburgRun {
+  std::string name;
+  bool is_repaired = true;  ///< by the options of carmen_to_bag below
+  bool has_start = true;    ///< whether the tracker is told the first pose
+};
+
+/// The pose for each scan that has one, as `offline` writes it from the bag of `carmen_to_bag`,
+/// repaired by `--reverse-from-tv --odometry-delay 0.12`.
+inline logs::Trajectory trackFreiburg(const std::string& log, const FreiburgRun& run) {
   const test::TemporaryFolder folder;
   bridge::CarmenBagOptions options;
-  options.reverse_from_tv = true;
-  options.odometry_delay = 0.12;
+  options.reverse_from_tv = run.is_repaired;
+  options.odometry_delay = run.is_repaired ? 0.12 : 0.0;
   bridge::writeCarmenBag(logs::readCarmenLog(log), options, folder.path("in.bag"));
-  const auto config =
+  auto config =
       pipeline::EstimatorsConfig::readFile(SIGHTLINE_SOURCE_DIR "/config/offline/fr079.yaml");
+  if (!run.has_start) config.rooms->initial_pose.reset();
   bridge::BagFeed feed({folder.path("in.bag")}, config, {});
   bridge::RecordedEstimates estimates(config, {false, true, false}, folder.path(""));
   bridge::BagFeed::Visitor visitor;
@@ -35,11 +43,11 @@ inline logs::Trajectory trackFreiburg(const std::string& log) {
   visitor.progress = [](double) {};
   feed.read(visitor);
   estimates.close();
-  for (const std::string& line : estimates.summary()) fmt::print("# fr079: {}\n", line);
+  for (const std::string& line : estimates.summary()) fmt::print("# {}: {}\n", run.name, line);
   return logs::readTrajectory(folder.path("rooms.tum"));
 }
 
-/// Prints rooms.fr079.*, or says that the log is not there.
+/// Prints rooms.fr079*, or says that the log is not there.
 inline void printFreiburg() {
   const char* data = std::getenv("SIGHTLINE_DATA");
   const std::filesystem::path folder = data ? data : "";
@@ -49,10 +57,13 @@ inline void printFreiburg() {
   }
   // The relations hold 4 cm ahead of the point that scans and odometry share.
   const geometry::Pose2 T_base_measured(0.04, 0.0, 0.0);
-  const auto errors = logs::compareWithRelations(
-      trackFreiburg((folder / "fr079.clf.gz").string()),
-      logs::readRelations((folder / "fr079.relations").string()), T_base_measured);
-  fmt::print("{}", logs::figures(errors, "rooms.fr079."));
+  const auto relations = logs::readRelations((folder / "fr079.relations").string());
+  for (const FreiburgRun& run : {FreiburgRun{"fr079"}, FreiburgRun{"fr079_raw", false},
+                                 FreiburgRun{"fr079_no_start", true, false}}) {
+    const auto errors = logs::compareWithRelations(
+        trackFreiburg((folder / "fr079.clf.gz").string(), run), relations, T_base_measured);
+    fmt::print("{}", logs::figures(errors, "rooms." + run.name + "."));
+  }
 }
 
 }  // namespace sightline::bench
