@@ -16,6 +16,11 @@ constexpr struct {
   double most_for = 4.0;
   double most_against = -14.0;
   double outside = -1.0;  // of a view from outside every room
+  // Of a view in which less than this share of the usual beams meet walls; what is usual follows
+  // slowly.
+  double surprising = -5.0;
+  double surprise = 0.6;
+  double learning = 0.1;
   double most_through = 0.04;
   double least_hits = 0.3;
 } kBelief;
@@ -30,6 +35,16 @@ void PoseBelief::take(const ScanAgreement& agreement, const scan::ScanGeometry& 
   }
   last_ = std::clamp(logOdds(agreement, geometry), kBelief.most_against, kBelief.most_for);
   if (is_outside) last_ = std::min(last_, kBelief.outside);
+  if (isSurprising(agreement)) last_ = std::min(last_, kBelief.surprising);
+}
+
+bool PoseBelief::isSurprising(const ScanAgreement& agreement) {
+  if (agreement.judged() < kLeastEvidence) return false;
+  const double hits =
+      static_cast<double>(agreement.on_wall) / static_cast<double>(agreement.judged());
+  const double usual = usual_hits_.value_or(hits);
+  usual_hits_ = usual + kBelief.learning * (hits - usual);
+  return hits < kBelief.surprise * usual;
 }
 
 double PoseBelief::probability() const {

@@ -93,7 +93,7 @@ void RivalTracks::look(const TrackingContext& context, const TrackerInput& input
   search_again_ = is_new ? 1 : std::min(2 * search_again_, kRivals.search_again);
   keys_.add(input);
   weigh(input, is_new);
-  if (isToBeSearched()) search(context, input);
+  if (!is_confirmed_ || isToBeSearched()) search(context, input);
 }
 
 void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {
@@ -227,6 +227,7 @@ void RivalTracks::takeOverIfCertain() {
   const double distance = (rival->track.pose().mean.translation() - published.translation()).norm();
   const bool is_proven = rival->way.isEnough() && belief.probability() < kRivals.hopeless;
   if (distance >= kRivals.push_reach && !is_proven) return;
+  rival->is_trusted = rival->is_trusted || rival->way.isEnough();
   publish(static_cast<std::size_t>(rival - hypotheses_.begin()));
 }
 

@@ -11,7 +11,7 @@ namespace sightline::tracking {
 /// Probability that the robot is where a hypothesis says it is, from what the beams say view after
 /// view, whatever other hypotheses there are. Scans of one view, within 0.3 m and 20°, tell the
 /// same and count as one, the last of them. A scan without evidence, as in a doorway, leaves it as
-/// it was.
+/// it was; one that suddenly meets far fewer walls than those before speaks against it.
 class PoseBelief {
  public:
   explicit PoseBelief(double log_odds) : before_(log_odds) {}
@@ -25,9 +25,12 @@ class PoseBelief {
   bool isContradicted() const { return last_ < 0.0; }
 
  private:
+  bool isSurprising(const ScanAgreement& agreement);
+
   double before_;      // log odds by the views before this one
   double last_ = 0.0;  // by the last scan
   std::optional<geometry::Pose2> view_;
+  std::optional<double> usual_hits_;  // share of the beams that meet walls
 };
 
 /// A scan that a pose may be claimed by: less than 4 % of the beams go through walls, and at least
