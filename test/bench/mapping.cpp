@@ -106,9 +106,10 @@ void printTwoRooms(std::uint64_t seeds) {
   figures.print();
 }
 
-void printFloors(const std::string& world, bool is_furnished, std::uint64_t seeds) {
+void printFloors(const std::string& world, bool is_furnished, std::uint64_t first,
+                 std::uint64_t floors) {
   FitFigures figures(world);
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+  for (std::uint64_t seed = first; seed < first + floors; ++seed) {
     const bench::RandomFloor floor(seed, is_furnished);
     figures.add(floor.drive(), floor.map(), seed);
   }
@@ -117,13 +118,15 @@ void printFloors(const std::string& world, bool is_furnished, std::uint64_t seed
 
 }  // namespace
 
-// usage: bench_mapping [FLOORS]      floors of either kind, 20 by default
+// usage: bench_mapping [FLOORS [SEED]]      floors of either kind, 20 by default, from a seed on,
+// by default 1
 int main(int argc, char** argv) {
   const auto floors = static_cast<std::uint64_t>(argc > 1 ? std::atoi(argv[1]) : 20);
+  const auto first = static_cast<std::uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // it takes minutes
   printTwoRooms(std::min<std::uint64_t>(floors, 5));
-  printFloors("bare", /*is_furnished=*/false, floors);
-  printFloors("furnished", /*is_furnished=*/true, floors);
+  printFloors("bare", /*is_furnished=*/false, first, floors);
+  printFloors("furnished", /*is_furnished=*/true, first, floors);
   bench::printRecordings();
   return 0;
 }
