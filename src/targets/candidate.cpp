@@ -40,7 +40,7 @@ Candidate::Candidate(std::size_t index, const Bernoulli& bernoulli, const Look& 
   for (const Component& component : bernoulli.mixture) {
     predictions_.push_back(predictBearing(component, look.pose(), look.sigma()));
     const double visible_detection =
-        std::min(1.0, scale * look.detection(component, predictions_.back().polar));
+        std::min(0.999, scale * look.detection(component, predictions_.back().polar));
     detections_.push_back(visible_ * visible_detection);
     detection_ += component.weight * detections_.back();
   }

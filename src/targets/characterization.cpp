@@ -257,14 +257,17 @@ Characterization characterize(const std::vector<KnownLook>& looks,
   Characterization result;
   result.looks = looks.size();
   followThePaper(looks, targets_map, config, result);
-  double inflation = 1.0;
+  double inflated = 0.0;
+  double opportunities = 0.0;
   for (std::size_t robot = 0; robot < names.size(); ++robot) {
     const std::vector<KnownLook> own = looksOf(looks, robot);
     if (own.size() < kFewest) continue;
     const RobotCharacter character = characterOf(own, targets_map, config);
-    inflation = std::max(inflation, character.inflation);
+    inflated += character.inflation * static_cast<double>(character.opportunities);
+    opportunities += static_cast<double>(character.opportunities);
     result.robots[names[robot]] = character;
   }
+  const double inflation = opportunities > 0.0 ? inflated / opportunities : 1.0;
   result.detection =
       fitDetectionLikelihood(result.paper_labels.opportunities, config.beam_spacing, inflation);
   result.clutter =

@@ -46,7 +46,10 @@ Fitted intervalOf(const std::vector<double>& grid, const std::vector<double>& pr
   while (!is_inside(last)) --last;
   result.low = grid[first];
   result.high = grid[last];
-  result.is_determined = first > 0 && last + 1 < grid.size();
+  // Ends that lie so much lower that this happens once in a thousand times by chance.
+  constexpr double kSure = 10.83 / (geometry::kNormal95 * geometry::kNormal95);
+  result.is_determined =
+      profile.front() < *best - kSure * drop && profile.back() < *best - kSure * drop;
   return result;
 }
 
@@ -219,21 +222,37 @@ ErrorMixture mixtureOf(const std::vector<double>& errors, double gate) {
   return mixture;
 }
 
-// Slope of errors against the turn rate, of those that belong to the core.
+// What is left of errors when those of a lag are taken away.
+std::vector<double> withoutLag(const std::vector<KnownLook>& looks,
+                               const std::vector<Opportunity>& labelled, double lag) {
+  std::vector<double> errors;
+  for (const Opportunity& one : labelled) {
+    if (one.is_detected) errors.push_back(one.error - lag * looks[one.look].turn_rate);
+  }
+  return errors;
+}
+
+// Sums of the regression of errors on the turn rate.
 struct LagSums {
   double rates = 0.0;
   double products = 0.0;
+
+  void add(double weight, double rate, double error) {
+    rates += weight * rate * rate;
+    products += weight * rate * error;
+  }
 };
 
+// Weighs each error by how much of it belongs to the Gaussians once the lag found so far is gone.
 LagSums lagSums(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
-                const ErrorMixture& mixture, double gate) {
+                const ErrorMixture& mixture, double lag, double gate) {
   LagSums sums;
   for (const Opportunity& one : labelled) {
     if (!one.is_detected) continue;
-    const double weight = mixture.belongs(one.error, gate).first;
     const double rate = looks[one.look].turn_rate;
-    sums.rates += weight * rate * rate;
-    sums.products += weight * rate * (one.error - mixture.bias);
+    const auto [core, wide] = mixture.belongs(one.error - lag * rate, gate);
+    const double kept = core + wide / (ErrorMixture::kWide * ErrorMixture::kWide);
+    sums.add(kept, rate, one.error - mixture.bias);
   }
   return sums;
 }
@@ -242,24 +261,19 @@ LagSums lagSums(const std::vector<KnownLook>& looks, const std::vector<Opportuni
 
 ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
                    double gate) {
-  std::vector<double> errors;
-  for (const Opportunity& one : labelled) {
-    if (one.is_detected) errors.push_back(one.error);
-  }
+  constexpr std::size_t kFewest = 30;
+  constexpr int kRounds = 15;
   ErrorFit result;
-  result.used = errors.size();
-  if (errors.size() < 30) return result;
-  const ErrorMixture first = mixtureOf(errors, gate);
-  const LagSums sums = lagSums(looks, labelled, first, gate);
-  if (sums.rates > 0.0) {
+  result.used = withoutLag(looks, labelled, 0.0).size();
+  if (result.used < kFewest) return result;
+  ErrorMixture mixture{gate / 3.0};
+  for (int round = 0; round < kRounds; ++round) {
+    mixture = mixtureOf(withoutLag(looks, labelled, result.lag), gate);
+    const LagSums sums = lagSums(looks, labelled, mixture, result.lag, gate);
+    if (sums.rates <= 0.0) break;
     result.lag = sums.products / sums.rates;
-    result.lag_sigma = first.sigma / std::sqrt(sums.rates);
+    result.lag_sigma = mixture.sigma / std::sqrt(sums.rates);
   }
-  errors.clear();
-  for (const Opportunity& one : labelled) {
-    if (one.is_detected) errors.push_back(one.error - result.lag * looks[one.look].turn_rate);
-  }
-  const ErrorMixture mixture = mixtureOf(errors, gate);
   result.sigma = mixture.sigma;
   result.bias = mixture.bias;
   result.tail = mixture.tail();

@@ -9,6 +9,8 @@ namespace {
 
 // Spread below which the probability of detection hardly differs over a component [m].
 constexpr double kSmallSpread = 0.15;
+// Largest probability of detection: were it 1, a single miss would leave nothing to weigh.
+constexpr double kSurest = 0.999;
 constexpr double kSqrtTwo = 1.4142135623730951;
 
 double gaussian(double error, double variance) {
@@ -60,7 +62,7 @@ double Look::knownDensity(std::size_t measurement) const {
 
 double Look::detection(const Polar& place) const {
   if (place.range > set_.range_max || !field_of_view_.contains(place.bearing)) return 0.0;
-  return model_.detection(place);
+  return std::min(model_.detection(place), kSurest);
 }
 
 double Look::detectionAt(const Eigen::Vector2d& point_map) const {

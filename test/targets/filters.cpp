@@ -151,6 +151,24 @@ TEST(BernoulliFilter, TakesOneHiddenSpellForNoAbsence) {
   }
 }
 
+TEST(BernoulliFilter, SurvivesAModelThatIsSureToDetect) {
+  TeamConfig team_config;
+  SensorModelConfig sure = team_config.model;
+  sure.detection.false_negative = 0.0;
+  sure.detection.target_diameter = 10.0;
+  const SensorModel model(sure);
+  SimulatedTeam team(team_config, 3);
+  BernoulliFilter filter;
+  for (int i = 0; i < 200; ++i) {
+    for (const SimulatedSet& set : team.step()) filter.update(set.set, model);
+    const TargetEstimate estimate = filter.estimate();
+    ASSERT_TRUE(std::isfinite(estimate.expected_number));
+    for (const Target& target : estimate.targets) {
+      ASSERT_TRUE(target.mean.allFinite() && target.covariance.allFinite());
+    }
+  }
+}
+
 TEST(BernoulliFilter, ExplainsWhatIsKnown) {
   const SensorModel model;
   const Eigen::Vector2d mate(2.0, 1.0);
