@@ -161,7 +161,7 @@ int runTargets(const Job& job, const pipeline::EstimatorsConfig& config) {
   if (!config.targets) throw config::Error(job.config, 0, "targets", "missing");
   prepareOut(job);
   bridge::RecordedTargets run(job.in, *config.targets, job.out);
-  ProgressBar bar;
+  tools::ProgressBar bar;
   run.read([&](double ratio) { bar.show(ratio); });
   print(run.summary());
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
