@@ -281,23 +281,5 @@ TEST(PhdFilter, MassIsWhatOneLookSays) {
   EXPECT_NEAR(filter.mass(), birth.mass / (birth.mass + look.clutter(0)), 1e-9);
 }
 
-TEST(FilterStatistics, ClutterHasItsMeanAndShareInThePeaks) {
-  const SensorModel model;
-  BearingSampler sampler(model, 5);
-  double count = 0.0;
-  double in_peaks = 0.0;
-  constexpr int kScans = 300000;
-  for (int i = 0; i < kScans; ++i) {
-    const int drawn = sampler.clutterCount();
-    count += drawn;
-    for (int j = 0; j < drawn; ++j) {
-      const double off = std::abs(std::abs(sampler.clutterBearing()) - 0.5 * geometry::kPi);
-      if (off <= 0.1 * geometry::kPi) in_peaks += 1.0;
-    }
-  }
-  EXPECT_NEAR(count / kScans / 0.5319, 1.0, 0.01);
-  EXPECT_NEAR(in_peaks / count, 0.468, 0.005);
-}
-
 }  // namespace
 }  // namespace sightline::targets

@@ -83,8 +83,8 @@ Span openingOf(const Door& door, const Wall& wall);
 /// rooms:
 ///   office:
 ///     size: [5.0, 3.0]                 # m; a rectangle, centred on its pose
-///     pose: [12.0, 4.0, 0.1]           # m, m, rad in the map; default 0; or [x, y] and turn_deg: 6
-///     walls:                           # optional; others are there over their whole length
+///     pose: [12.0, 4.0, 0.1]           # m, m, rad in the map; default 0; or [x, y] and turn_deg:
+///     6 walls:                           # optional; others are there over their whole length
 ///       north: {spans: [[0.0, 2.0], [2.5, 5.0]]}   # m from the wall's start
 ///       east: {open: true}             # no wall at all
 ///   tower:
