@@ -31,11 +31,12 @@ std::vector<Eigen::Vector2d> missesOf(const scan::Scan& scan, const Pose2& T_bas
 }  // namespace
 
 Survey::Survey(const pipeline::EstimatorsConfig& config)
-    : estimators_(config, {false, false, true}) {}
+    : estimators_(std::make_unique<pipeline::Estimators>(
+          config, pipeline::EstimatorSet{false, false, true})) {}
 
 void Survey::take(pipeline::LocatedScan located) {
   if (located.scanner != 0) return;
-  const pipeline::Estimates estimates = estimators_.take(std::move(located));
+  const pipeline::Estimates estimates = estimators_->take(std::move(located));
   if (!estimates.odometry) return;
   wheels_broke_ = wheels_broke_ || estimates.located.odometry_broke;
   advance(*estimates.odometry);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -57,7 +58,7 @@ class Survey {
   void addKey(const pipeline::LocatedScan& located, const geometry::Pose2& T_odom_base);
   std::optional<geometry::Pose2> wheelStep(const pipeline::LocatedScan& located);
 
-  pipeline::Estimators estimators_;
+  std::unique_ptr<pipeline::Estimators> estimators_;  // apart, so that a survey can be moved
   std::vector<PathPoint> path_;
   std::vector<KeyScan> keys_;
   geometry::UncertainPose2 step_;                // since the last key scan
