@@ -132,7 +132,7 @@ class Talk {
 
   FrameParser device_;
   Moment now_{1'000'000'000'000, 1'700'000'000'000'000'000};
-  Conversation conversation_{{"SS-0001", kSamples, 460800, {}}, check};
+  Conversation conversation_{{{"SS-0001", kSamples, 0.0}, 460800, {}, {}}, check};
 };
 
 }  // namespace
