@@ -20,7 +20,7 @@ using test::refusalOf;
 using testing::HasSubstr;
 using Robot = test::OdometryRobot;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoRange = std::numeric_limits<float>::quiet_NaN();
 
 TEST(LaserOdometryNode, BadScansAreDroppedAndCounted) {
   const test::Diagnostics diagnostics;
@@ -33,8 +33,8 @@ TEST(LaserOdometryNode, BadScansAreDroppedAndCounted) {
   auto no_beams = good;
   no_beams.ranges.clear();
   auto no_increment = good;
-  no_increment.angle_increment = kNan;
-  no_increment.angle_max = kNan;
+  no_increment.angle_increment = kNoRange;
+  no_increment.angle_max = kNoRange;
   auto no_stamp = good;
   no_stamp.header.stamp = ros::Time();
   auto nowhere = good;
