@@ -36,7 +36,8 @@ TYPED_TEST_P(EverySetting, HasAnEndOnBothSides) {
   for (const auto& limit : atBothEnds(changed(TypeParam()))) {
     SCOPED_TRACE(limit.name);
     EXPECT_NO_THROW(config::validate(limit.config));
-    EXPECT_EQ(limit.name.find("inf"), std::string::npos);
+    EXPECT_EQ(limit.name.find("= inf"), std::string::npos);
+    EXPECT_EQ(limit.name.find("= -inf"), std::string::npos);
     EXPECT_EQ(limit.name.find("e+30"), std::string::npos) << "no practical end";
     EXPECT_EQ(limit.name.find("e-30"), std::string::npos) << "no practical end";
   }

@@ -64,19 +64,22 @@ std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
   const bool is_older = newest_ && input.scan.stamp < *newest_;
   if (is_older || input.scan.beams() == 0) return std::nullopt;
   newest_ = input.scan.stamp;
-  move(context, input);
   ++scans_since_search_;
-  if (isInDoubt()) look(context, input);
+  is_compared_ = keys_.isNew(input) || scans_since_search_ >= search_again_;
+  move(context, input);
+  if (isInDoubt() && is_compared_) look(context, input);
   hypotheses_ = thinnedOut(std::move(hypotheses_), is_confirmed_);
   settle();
   return is_started_ ? std::optional(report(context)) : std::nullopt;
 }
 
-// Each hypothesis goes with the odometry and takes the scan.
+// Each hypothesis goes with the odometry. The published one takes every scan; the others take those
+// by which they are compared, as ten of them cost ten times as much.
 void RivalTracks::move(const TrackingContext& context, const TrackerInput& input) {
   way_.add(input.T_odom_base);
   for (Hypothesis& hypothesis : hypotheses_) {
     hypothesis.way.add(input.T_odom_base);
+    if (!is_compared_ && !hypothesis.is_published) continue;
     const auto update = hypothesis.track.update(context, input);
     if (!update) continue;
     hypothesis.update = *update;
@@ -85,11 +88,10 @@ void RivalTracks::move(const TrackingContext& context, const TrackerInput& input
   }
 }
 
-// Compares the explanations of a scan that says something new; of one from the same place less and
-// less often.
+// Compares the explanations of a scan that says something new; of those from the same place less
+// and less often one.
 void RivalTracks::look(const TrackingContext& context, const TrackerInput& input) {
   const bool is_new = keys_.isNew(input);
-  if (!is_new && scans_since_search_ < search_again_) return;
   search_again_ = is_new ? 1 : std::min(2 * search_again_, kRivals.search_again);
   keys_.add(input);
   weigh(input, is_new);
@@ -188,7 +190,7 @@ void RivalTracks::dismissRivals() {
 void RivalTracks::settle() {
   if (hypotheses_.empty()) return;
   if (is_confirmed_) {
-    takeOverIfCertain();
+    if (is_compared_) takeOverIfCertain();
     dismissRivals();
   } else if (!hypotheses_.front().is_published) {
     publish(0);

@@ -111,8 +111,9 @@ TEST_F(HeadCommands, AreRefusedByNameAndTheHeadStaysWhereItIs) {
   expectRefused("a position that is not finite");
   send(HeadCommand::RATE, 0.0, 100.0);
   expectRefused("a rate of 100");
-  send(HeadCommand::POSITION, 0.5, 0.0, "elbow");
-  expectRefused("'elbow'");
+  send(HeadCommand::POSITION, 0.5, -1.0);
+  expectRefused("a rate below 0");
+  send(HeadCommand::POSITION, 0.5, 0.0, "elbow");  // is for another head
   send(7, 0.0, 0.0);
   expectRefused("an unknown mode 7");
   EXPECT_EQ(angle(), 0.0);

