@@ -160,10 +160,10 @@ TEST(Ranger, LagOfTheDetectorIsUndone) {
   EXPECT_EQ(found.scan.kinds()[0], ReturnKind::kInvalid);
   const double price = (1.0 + memory) / (1.0 - memory);
   for (std::size_t i = 1; i < 256; ++i) {
+    const double variance = price * expected.scan.rangeVariances()[i];
     EXPECT_NEAR(found.scan.ranges()[i], expected.scan.ranges()[i], 1e-9) << i;
-    EXPECT_NEAR(found.scan.rangeVariances()[i], price * expected.scan.rangeVariances()[i],
-                0.005 * expected.scan.rangeVariances()[i])
-        << "beside the first, the median around it is of one beam less");
+    // Beside the first, the median of the neighbours is of one beam less.
+    EXPECT_NEAR(found.scan.rangeVariances()[i], variance, 0.005 * variance) << i;
   }
 }
 
