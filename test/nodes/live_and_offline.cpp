@@ -34,7 +34,7 @@ using geometry_msgs::PoseWithCovarianceStamped;
 using nav_msgs::Odometry;
 
 constexpr double kDrive = 12.0;     // s
-constexpr const char* kRate = "4";  // times real time
+constexpr const char* kRate = "2";  // times real time
 
 template <class Message>
 using ByStamp = std::map<std::int64_t, Message>;
