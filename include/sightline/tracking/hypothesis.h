@@ -18,7 +18,7 @@ struct Hypothesis {
   WayTravelled way;            ///< since it turned up
   double log_posterior = 0.0;  ///< up to a constant that all share
   double last_key = 0.0;       ///< the part of the last key scan in it
-  TrackerUpdate update;        ///< by the last scan
+  TrackerUpdate update;        ///< by the last scan that it took
   bool is_published = false;
   bool is_trusted = false;  ///< as near to the given start as it was said to be, or claimed since
 };

@@ -12,7 +12,8 @@ namespace sightline::tracking {
 /// Several explanations of where the robot is, of which one is published. Each is a PoseTrack with
 /// the log-posterior of what the key scans say of it. As long as one explains what is seen, there
 /// is no other; where views speak against it, and until a pose that nobody gave is certain, the
-/// whole map is searched again and again (relocalise).
+/// whole map is searched again and again (relocalise). The published one takes every scan, the
+/// others those by which all are compared: each new view, and of the same view fewer and fewer.
 ///
 /// A pose is certain with posterior odds of 10⁴ and by a sound scan, and is claimed after the robot
 /// has turned by 180° or driven 2 m as well: what the map lacks is no noise, so that no ratio of
