@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "sightline/bridge/marker_drawing.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
@@ -14,6 +16,34 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr float kWallWidth = 0.06F;
+
+constexpr char kTextName[] = "room";
+
+// Adds the stretches where walls stand; those of the room `current` are bright.
+void addWalls(const world::RoomMap& map, const std::string& current, Marker& marker) {
+  for (const world::Room& room : map.rooms()) {
+    const auto shade =
+        room.name == current ? colour(1.0F, 0.75F, 0.1F) : colour(0.55F, 0.55F, 0.6F, 0.8F);
+    for (const world::Wall& wall : room.walls) {
+      for (const world::Span& span : wall.spans) {
+        const Eigen::Vector2d along = wall.segment.direction();
+        marker.points.push_back(toPoint(wall.segment.start + span.from * along, 0.0));
+        marker.points.push_back(toPoint(wall.segment.start + span.to * along, 0.0));
+        marker.colors.insert(marker.colors.end(), 2, shade);
+      }
+    }
+  }
+}
+
+Marker textAt(const Eigen::Vector2d& place, const std::string& text,
+              const std_msgs::Header& header) {
+  Marker marker = emptyMarker(kTextName, Marker::TEXT_VIEW_FACING, header, 0.0);
+  marker.pose.position = toPoint(place, 0.3);
+  marker.scale.z = 0.35;
+  marker.color = colour(1.0F, 1.0F, 1.0F);
+  marker.text = text;
+  return marker;
+}
 
 // Everything that one array of markers is drawn from.
 struct Scene {
@@ -28,18 +58,7 @@ struct Scene {
 
 Marker walls(const Scene& scene) {
   Marker marker = scene.marker("walls", Marker::LINE_LIST, kWallWidth);
-  for (const world::Room& room : scene.map.rooms()) {
-    const bool current = room.name == scene.update.room;
-    const auto shade = current ? colour(1.0F, 0.75F, 0.1F) : colour(0.55F, 0.55F, 0.6F, 0.8F);
-    for (const world::Wall& wall : room.walls) {
-      for (const world::Span& span : wall.spans) {
-        const Eigen::Vector2d along = wall.segment.direction();
-        marker.points.push_back(toPoint(wall.segment.start + span.from * along, 0.0));
-        marker.points.push_back(toPoint(wall.segment.start + span.to * along, 0.0));
-        marker.colors.insert(marker.colors.end(), 2, shade);
-      }
-    }
-  }
+  addWalls(scene.map, scene.update.room, marker);
   return marker;
 }
 
@@ -99,13 +118,16 @@ Marker positionEllipse(const Scene& scene) {
 }
 
 Marker roomName(const Scene& scene) {
-  Marker marker = scene.marker("room", Marker::TEXT_VIEW_FACING, 0.0);
-  const geometry::Pose2& pose = scene.update.pose.mean;
-  marker.pose.position = toPoint(pose.translation() + Eigen::Vector2d(0.0, 0.6), 0.3);
-  marker.scale.z = 0.35;
-  marker.color = colour(1.0F, 1.0F, 1.0F);
-  marker.text = scene.update.room;
-  return marker;
+  const Eigen::Vector2d above = scene.update.pose.mean.translation() + Eigen::Vector2d(0.0, 0.6);
+  return textAt(above, scene.update.room, scene.header);
+}
+
+Eigen::Vector2d middleOf(const world::RoomMap& map) {
+  Eigen::AlignedBox2d box;
+  for (const world::Room& room : map.rooms()) {
+    for (const world::Wall& wall : room.walls) box.extend(wall.segment.start);
+  }
+  return box.center();
 }
 
 }  // namespace
@@ -120,6 +142,19 @@ visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& updat
   visualization_msgs::MarkerArray array;
   array.markers = {walls(scene), gates(scene), acceptedPoints(scene, scan, T_base_sensor),
                    positionEllipse(scene), roomName(scene)};
+  return array;
+}
+
+visualization_msgs::MarkerArray awaitingMarkers(const world::RoomMap& map, const std::string& text,
+                                                const std::string& map_frame) {
+  std_msgs::Header header;  // its stamp of zero is tf's newest
+  header.frame_id = map_frame;
+  Marker clear;
+  clear.action = Marker::DELETEALL;
+  Marker walls = emptyMarker("walls", Marker::LINE_LIST, header, kWallWidth);
+  addWalls(map, "", walls);
+  visualization_msgs::MarkerArray array;
+  array.markers = {clear, walls, textAt(middleOf(map), text, header)};
   return array;
 }
 

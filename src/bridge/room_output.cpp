@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/room_markers.h"
 #include "sightline/bridge/room_messages.h"
 #include "sightline/bridge/time.h"
@@ -37,7 +38,24 @@ RoomOutput::RoomOutput(Output& output, const RoomOutputConfig& config,
       map_port_(output.open<nav_msgs::OccupancyGrid>("map", /*latched=*/true)) {
   if (output.isBag()) return;
   markers_ = output.open<visualization_msgs::MarkerArray>("room_markers");
+  static_transforms_ = output.openStaticTransforms();
+  writeFrameOfRooms();
   writeMap();
+}
+
+void RoomOutput::writeFrameOfRooms() {
+  tf2_msgs::TFMessage transforms;
+  transforms.transforms = {
+      toTransformMessage(frames_.map, frames_.map + "_rooms", /*stamp=*/0, geometry::Pose2())};
+  static_transforms_.write(transforms);
+}
+
+void RoomOutput::drawAwaited() {
+  if (has_pose_ || !markers_.is_wanted || !markers_.is_wanted()) return;
+  const char* text = scans_ == 0
+                         ? "no scan was used yet: see the terminal, or /diagnostics"
+                         : "no pose yet: 2D Pose Estimate, or drive 2 m, or turn by 180 degrees";
+  markers_.write(awaitingMarkers(map_, text, frames_.map));
 }
 
 // Into a bag with the first scan, whose time it is given.
@@ -50,6 +68,7 @@ void RoomOutput::writeMap() {
 std::string RoomOutput::write(const pipeline::Estimates& estimates, bool has_pose) {
   writeMap();
   ++scans_;
+  has_pose_ = has_pose;
   if (!estimates.rooms) return writeNone(estimates, has_pose);
   writePose(estimates);
   return "";

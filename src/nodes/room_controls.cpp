@@ -28,6 +28,8 @@ RoomControls::RoomControls(ros::NodeHandle node, ros::NodeHandle private_node,
       private_node.advertiseService("inflate_uncertainty", &RoomControls::onInflate, this);
   relocalise_server_ =
       private_node.advertiseService("relocalise", &RoomControls::onRelocalise, this);
+  awaited_timer_ = node.createSteadyTimer(
+      ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { output_.drawAwaited(); });
   reconfigure_.updateConfig(bridge::toReconfigure(config_.tracker));
   reconfigure_.setCallback([this](RoomTrackerConfig& settings, std::uint32_t) {
     bridge::applyReconfigure(settings, config_.tracker);

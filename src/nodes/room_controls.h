@@ -6,6 +6,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <ros/node_handle.h>
+#include <ros/steady_timer.h>
 #include <std_srvs/Trigger.h>
 
 #include "sightline/InflateUncertainty.h"
@@ -46,6 +47,7 @@ class RoomControls {
   ros::ServiceServer load_rooms_server_;
   ros::ServiceServer relocalise_server_;
   ros::ServiceServer inflate_server_;
+  ros::SteadyTimer awaited_timer_;  // draws what is awaited, also where no scan comes
 };
 
 }  // namespace sightline::nodes

@@ -34,6 +34,10 @@ class Output {
   Port<Message> open(const std::string& topic, bool latched = false);
   /// Opens a port for transforms of moving frames.
   Port<tf2_msgs::TFMessage> openTransforms() { return open<tf2_msgs::TFMessage>("/tf"); }
+  /// Opens a port for transforms of frames that never move.
+  Port<tf2_msgs::TFMessage> openStaticTransforms() {
+    return open<tf2_msgs::TFMessage>("/tf_static", /*latched=*/true);
+  }
   bool isBag() const { return bag_ != nullptr; }
 
  private:

@@ -18,4 +18,9 @@ visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& updat
                                             const geometry::Pose2& T_base_sensor,
                                             const std::string& map_frame);
 
+/// The rooms before there is a pose, in the map frame: every wall, and in their middle a text on
+/// what is awaited. It takes the place of what was drawn for a pose, and a pose the place of it.
+visualization_msgs::MarkerArray awaitingMarkers(const world::RoomMap& map, const std::string& text,
+                                                const std::string& map_frame);
+
 }  // namespace sightline::bridge

@@ -24,7 +24,9 @@ struct RoomOutputConfig {
 };
 
 /// The pose in the rooms of a map: `pose`, `tracker_status`, map→odom on tf, the map itself,
-/// latched, on `map`, and markers.
+/// latched, on `map`, and markers. In a running graph also the frame of the rooms file, which is
+/// that of the map with `_rooms` behind its name: with it tf, and so rviz, knows the frame of the
+/// map before there is a pose.
 class RoomOutput {
  public:
   RoomOutput(Output& output, const RoomOutputConfig& config, const pipeline::Frames& frames,
@@ -33,6 +35,8 @@ class RoomOutput {
   /// `has_pose` is whether the tracker has been given a pose. Returns why there is none for this
   /// scan; empty where there is one.
   std::string write(const pipeline::Estimates& estimates, bool has_pose);
+  /// Draws the rooms and what is awaited, where there was no pose for the last scan, or no scan.
+  void drawAwaited();
   /// Sends map→odom of the last scan again, as of this time.
   void resend(const ros::Time& now);
   /// Writes the map anew: it was replaced.
@@ -44,6 +48,7 @@ class RoomOutput {
 
  private:
   void writeMap();
+  void writeFrameOfRooms();
   void writeTransform(geometry_msgs::TransformStamped T_map_odom);
   void writePose(const pipeline::Estimates& estimates);
   std::string writeNone(const pipeline::Estimates& estimates, bool has_pose);
@@ -56,11 +61,13 @@ class RoomOutput {
   Port<TrackerStatus> status_port_;
   Port<tf2_msgs::TFMessage> transforms_;
   Port<nav_msgs::OccupancyGrid> map_port_;
-  Port<visualization_msgs::MarkerArray> markers_;
+  Port<visualization_msgs::MarkerArray> markers_;  // only in a running graph
+  Port<tf2_msgs::TFMessage> static_transforms_;    // only in a running graph
   TrackerStatus status_;
   geometry_msgs::TransformStamped T_map_odom_;  // that was sent last; no frame where none was
   double odometry_scale_ = 1.0;
   bool map_is_written_ = false;
+  bool has_pose_ = false;  // for the last scan
   std::size_t scans_ = 0;
   std::size_t poses_ = 0;
   std::size_t lost_ = 0;

@@ -17,6 +17,7 @@
 
 #include <sightline/RangeScan.h>
 #include "bench/live_node.h"
+#include "sightline/bridge/time.h"
 #include "sightline/simulation/emulated_device.h"
 
 namespace sightline::bench {
@@ -77,6 +78,19 @@ class Channel {
     throw std::runtime_error("the scans do not come back");
   }
 
+  /// Time from the last sample of each scan to its arrival, of those that began between two moments
+  /// of ROS time [s].
+  std::vector<double> delays(const ros::Time& begin, const ros::Time& end) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<double> result;
+    for (const Publication& publication : published_) {
+      const std::int64_t stamp = publication.stamp;
+      if (stamp < bridge::nanoseconds(begin) || stamp > bridge::nanoseconds(end)) continue;
+      result.push_back(publication.delay);
+    }
+    return result;
+  }
+
   struct Verdict {
     std::size_t whole = 0;             ///< sent, and arrived whole
     std::size_t broken = 0;            ///< sent, and did not
@@ -113,6 +127,7 @@ class Channel {
   struct Publication {
     std::int64_t arrival = 0;
     std::int64_t stamp = 0;
+    double delay = 0.0;  // of the arrival, after the last sample [s]
     std::vector<float> currents;
     std::vector<double> head_angles;
   };
@@ -129,9 +144,12 @@ class Channel {
   }
   void onPublished(const RangeScanConstPtr& message) {
     const std::int64_t now = steadyNow();
+    const double since_stamp = (ros::Time::now() - message->header.stamp).toSec();
+    const auto intervals = static_cast<double>(message->currents.size() - 1);
     const std::lock_guard<std::mutex> lock(mutex_);
     published_.push_back({now, static_cast<std::int64_t>(message->header.stamp.toNSec()),
-                          message->currents, message->head_angles});
+                          since_stamp - intervals * message->time_increment, message->currents,
+                          message->head_angles});
   }
 
   Verdict judgeUnpublished() const {

@@ -83,7 +83,10 @@ class HeadSteps {
   void run() {
     const ros::Time begin = ros::Time::now();
     for (const double target : {90.0, 0.0, -90.0, 0.0}) step(geometry::radians(target));
-    compare(begin, ros::Time::now() - ros::Duration(0.5));
+    const ros::Time end = ros::Time::now() - ros::Duration(0.5);
+    compare(begin, end);
+    const auto delays = channel_.delays(begin, end);
+    print("driver.scan_delay_ms", 1e3 * *std::max_element(delays.begin(), delays.end()), "ms");
     print("driver.head.settle_s", settle_, "s");
     print("driver.head.angle_error_deg", geometry::degrees(error_), "deg");
     print("driver.head.unknown_samples", static_cast<double>(unknown_), "samples");
