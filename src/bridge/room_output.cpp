@@ -38,15 +38,15 @@ RoomOutput::RoomOutput(Output& output, const RoomOutputConfig& config,
       map_port_(output.open<nav_msgs::OccupancyGrid>("map", /*latched=*/true)) {
   if (output.isBag()) return;
   markers_ = output.open<visualization_msgs::MarkerArray>("room_markers");
-  static_transforms_ = output.openStaticTransforms();
-  writeFrameOfRooms();
+  if (config_.publish_tf) writeFrameOfRooms(output);
   writeMap();
 }
 
-void RoomOutput::writeFrameOfRooms() {
+void RoomOutput::writeFrameOfRooms(Output& output) {
   tf2_msgs::TFMessage transforms;
   transforms.transforms = {
       toTransformMessage(frames_.map, frames_.map + "_rooms", /*stamp=*/0, geometry::Pose2())};
+  static_transforms_ = output.openStaticTransforms();
   static_transforms_.write(transforms);
 }
 

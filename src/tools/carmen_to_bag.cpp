@@ -35,7 +35,8 @@ int convert(const std::string& in, const std::string& out,
         "what was logged\n",
         contents.not_rising, contents.scans, out.c_str());
   }
-  std::printf("%zu scans, %zu odometry poses\n", contents.scans, contents.odometry);
+  std::printf("%s: %zu scans, %zu odometry poses\n", out.c_str(), contents.scans,
+              contents.odometry);
   return 0;
 }
 

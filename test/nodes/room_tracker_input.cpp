@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include "nodes/diagnostics.h"
 #include "nodes/living_room_robot.h"
@@ -116,6 +119,22 @@ TEST_F(RoomTrackerInput, WaitsForAPoseAndRefusesBadOnes) {
   const PoseMessage pose = scanUntil(poses);
   EXPECT_EQ(pose.header.frame_id, "waiting/map");
   EXPECT_NEAR(pose.pose.pose.position.x, truth_.x(), 0.03);
+}
+
+TEST_F(RoomTrackerInput, RoomsAreDrawnBeforeThereIsAPose) {
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  const Recorder<visualization_msgs::MarkerArray> drawings("unlocated/room_markers");
+  const auto messages = drawings.atLeast(1);
+  ASSERT_FALSE(messages.empty());
+  const auto& markers = messages.front().markers;
+  ASSERT_EQ(markers.size(), 3U);
+  EXPECT_EQ(markers[0].action, visualization_msgs::Marker::DELETEALL);
+  EXPECT_GE(markers[1].points.size(), 8U) << "four walls";
+  EXPECT_EQ(markers[2].text, "no scan was used yet: see the terminal, or /diagnostics");
+  EXPECT_TRUE(comesTrue(
+      [&] { return buffer.canTransform("unlocated/map", "unlocated/map_rooms", ros::Time(0)); },
+      [] {}));
 }
 
 TEST_F(RoomTrackerInput, ClockSetBackStartsAgain) {

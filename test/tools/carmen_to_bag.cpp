@@ -25,7 +25,7 @@ TEST(CarmenToBag, CountsWhatItWrote) {
   const auto result = convert(folder, test::carmenRoomLog(5),
                               "--reverse-from-tv --odometry-delay 0.12 --laser-offset -0.04");
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.output, "5 scans, 10 odometry poses\n");
+  EXPECT_EQ(result.output, folder.path("a.bag") + ": 5 scans, 10 odometry poses\n");
   EXPECT_TRUE(std::filesystem::exists(folder.path("a.bag")));
 }
 

@@ -24,7 +24,7 @@ struct RoomOutputConfig {
 };
 
 /// The pose in the rooms of a map: `pose`, `tracker_status`, map→odom on tf, the map itself,
-/// latched, on `map`, and markers. In a running graph also the frame of the rooms file, which is
+/// latched, on `map`, and markers. In a running graph, with publish_tf, also the frame of the rooms file, which is
 /// that of the map with `_rooms` behind its name: with it tf, and so rviz, knows the frame of the
 /// map before there is a pose.
 class RoomOutput {
@@ -48,7 +48,7 @@ class RoomOutput {
 
  private:
   void writeMap();
-  void writeFrameOfRooms();
+  void writeFrameOfRooms(Output& output);
   void writeTransform(geometry_msgs::TransformStamped T_map_odom);
   void writePose(const pipeline::Estimates& estimates);
   std::string writeNone(const pipeline::Estimates& estimates, bool has_pose);
