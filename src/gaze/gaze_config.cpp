@@ -10,7 +10,7 @@ void InformConfig::visit(config::FieldVisitor& visitor) {
                  {"rad", {1e-5, 1.0}, "of a wall of the map"});
   visitor.number("least_length", least_length,
                  {"m", {0.0, 10.0}, "of wall in view, for it to count"});
-  visitor.number("dwell", dwell, {"s", time, "time to look, once the head is there"});
+  visitor.number("horizon", horizon, {"s", {0.2, 20.0}, "time ahead that a choice is judged by"});
   visitor.number("period", period, {"s", time, "between two choices"});
   visitor.number("forget", forget, {"s", time, "what hides a wall is forgotten in this time"});
 }

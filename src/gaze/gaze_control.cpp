@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "sightline/motion/odometry_noise.h"
-
 namespace sightline::gaze {
 
 namespace {
@@ -18,8 +16,6 @@ using motion::HeadCommand;
 constexpr std::int64_t kSecond = 1'000'000'000;
 // A command is repeated so often, as one may be lost [ns].
 constexpr std::int64_t kRepeat = kSecond / 2;
-// Time over which the velocity of the carrier is taken [ns].
-constexpr std::int64_t kVelocitySpan = 60'000'000;
 // A clock that goes back by more was set [ns].
 constexpr std::int64_t kSetBack = kSecond / 2;
 
@@ -37,22 +33,17 @@ std::int64_t nanosecondsOf(double seconds) {
 GazeControl::GazeControl(const GazeConfig& config)
     : config_(checkedGaze(config)),
       watch_(config_.head, config_.answer),
-      informative_(config_),
-      visibility_(config_.inform.forget) {
+      motion_(config_.patience),
+      informing_(config_, motion_) {
   state_.mode = config_.mode;
 }
 
-void GazeControl::setMap(world::RoomMap map) {
-  map_ = std::move(map);
-  visibility_.clear();
-}
-
 void GazeControl::takeOdometry(std::int64_t stamp, const Pose2& T_odom_base) {
-  odometry_.add(stamp, T_odom_base);
+  motion_.add(stamp, T_odom_base);
 }
 
 void GazeControl::takePose(std::int64_t stamp, const geometry::UncertainPose2& T_map_base) {
-  pose_ = Stamped{stamp, T_map_base};
+  informing_.takePose(stamp, T_map_base);
 }
 
 void GazeControl::takeFeatures(std::int64_t stamp, const std::vector<geometry::Feature>& features) {
@@ -66,14 +57,7 @@ void GazeControl::takeHead(std::int64_t now, double angle) {
 }
 
 void GazeControl::takeScan(const scan::Scan& scan, const Pose2& T_mount_sensor) {
-  if (!map_ || !T_base_mount_ || map_->rooms().empty()) return;
-  const auto T_map_base = T_map_baseAt(scan.stamp);
-  if (!T_map_base) return;
-  const Pose2 T_map_sensor = T_map_base->mean * *T_base_mount_ * T_mount_sensor;
-  const double elapsed = 1e-9 * static_cast<double>(std::max<std::int64_t>(
-                                    0, scan.stamp - std::exchange(scanned_at_, scan.stamp)));
-  visibility_.take(scan, *map_, map_->nearestRoom(T_map_base->mean.translation()), T_map_sensor,
-                   std::min(elapsed, 10.0));
+  if (T_base_mount_) informing_.takeScan(scan, *T_base_mount_, T_mount_sensor);
 }
 
 void GazeControl::setMode(GazeMode mode) {
@@ -81,7 +65,7 @@ void GazeControl::setMode(GazeMode mode) {
   state_.mode = mode;
   if (mode != GazeMode::kFixate) fixation_.reset();
   commanded_.reset();
-  chosen_at_ = 0;
+  informing_.chooseAnew();
   if (now_) watch_.restart(*now_);
 }
 
@@ -117,62 +101,29 @@ Fixated GazeControl::fixateAt(const Eigen::Vector2d& place_odom) {
 }
 
 Fixated GazeControl::fixateNearestCorner() {
-  const auto T_odom_base = odometry_.empty() ? std::nullopt : odometry_.at(odometry_.newest());
+  const auto T_odom_base = motion_.newest();
   if (!T_odom_base || !T_base_mount_) return {false, 0, "the place of the head is not known"};
   const FeatureChoice choice(features_, *T_odom_base * *T_base_mount_, config_);
   return fixate(choice.nearestCorner(), "there is no corner within reach");
 }
 
 Fixated GazeControl::fixateMostInformative() {
-  const auto T_odom_base = odometry_.empty() ? std::nullopt : odometry_.at(odometry_.newest());
+  const auto T_odom_base = motion_.newest();
   if (!T_odom_base || !T_base_mount_) return {false, 0, "the place of the head is not known"};
   // Without a pose all directions are as uncertain.
   Eigen::Matrix3d covariance = 1e-2 * Eigen::Matrix3d::Identity();
-  if (pose_) {
-    const Eigen::Matrix2d R =
-        Pose2(0.0, 0.0, T_odom_base->theta() - pose_->T_map_base.mean.theta()).rotation();
+  if (const auto& pose = informing_.pose()) {
+    const Eigen::Matrix2d R = Pose2(0.0, 0.0, T_odom_base->theta() - pose->mean.theta()).rotation();
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     turn.topLeftCorner<2, 2>() = R;
-    covariance = turn * pose_->T_map_base.covariance * turn.transpose();
+    covariance = turn * pose->covariance * turn.transpose();
   }
   const FeatureChoice choice(features_, *T_odom_base * *T_base_mount_, config_);
   return fixate(choice.mostInformative(covariance), "there is no fixed feature within reach");
 }
 
-Eigen::Vector3d GazeControl::twist() const {
-  if (odometry_.empty()) return Eigen::Vector3d::Zero();
-  const std::int64_t newest = odometry_.newest();
-  const std::int64_t before = std::max(odometry_.oldest(), newest - kVelocitySpan);
-  if (before == newest) return Eigen::Vector3d::Zero();
-  return geometry::between(*odometry_.at(before), *odometry_.at(newest)).log() /
-         (1e-9 * static_cast<double>(newest - before));
-}
-
-// Beyond the newest report by constant velocity, as long as that is fresh.
-std::optional<Pose2> GazeControl::T_odom_baseAt(std::int64_t stamp) const {
-  if (odometry_.empty()) return std::nullopt;
-  if (stamp <= odometry_.newest()) return odometry_.at(stamp);
-  const double ahead = 1e-9 * static_cast<double>(stamp - odometry_.newest());
-  return *odometry_.at(odometry_.newest()) *
-         Pose2::exp(std::min(ahead, config_.patience) * twist());
-}
-
-std::optional<geometry::UncertainPose2> GazeControl::T_map_baseAt(std::int64_t stamp) const {
-  if (!pose_) return std::nullopt;
-  const auto before = T_odom_baseAt(pose_->stamp);
-  const auto at = T_odom_baseAt(stamp);
-  if (!before || !at) return std::nullopt;
-  const Pose2 step = geometry::between(*before, *at);
-  return geometry::compose(pose_->T_map_base,
-                           {step, motion::stepCovariance(config_.odometry, step)});
-}
-
 bool GazeControl::isFresh(const std::optional<std::int64_t>& stamp, std::int64_t now) const {
   return stamp && now - *stamp <= nanosecondsOf(config_.patience);
-}
-
-bool GazeControl::isOdometryFresh(std::int64_t now) const {
-  return !odometry_.empty() && isFresh(odometry_.newest(), now);
 }
 
 double GazeControl::rest(const std::string& reason) {
@@ -189,7 +140,7 @@ double GazeControl::wantedSweeping() {
 }
 
 std::optional<double> GazeControl::wantedFixating(std::int64_t now) {
-  if (!isOdometryFresh(now)) return rest("no odometry");
+  if (!motion_.isFresh(now)) return rest("no odometry");
   if (!isFresh(features_stamp_, now)) return rest("no features");
   if (!T_base_mount_) return rest("the mounting of the head is not known");
   if (!fixation_ && !fixateNearestCorner().success) return rest("there is no corner within reach");
@@ -202,24 +153,12 @@ std::optional<double> GazeControl::wantedFixating(std::int64_t now) {
   state_.is_target_lost = fixation_->isLost(now);
   state_.place = fixation_->position();
   const std::int64_t then = now + nanosecondsOf(config_.lead);
-  return fixation_->aim(*T_odom_baseAt(then) * *T_base_mount_, then);
+  return fixation_->aim(*motion_.at(then) * *T_base_mount_, then);
 }
 
 std::optional<double> GazeControl::wantedInforming(std::int64_t now) {
-  if (!map_ || map_->rooms().empty()) return rest("no map");
-  if (!T_base_mount_) return rest("the mounting of the head is not known");
-  if (!pose_ || !isFresh(pose_->stamp, now)) return rest("no pose");
-  const auto T_map_base = T_map_baseAt(now);
-  if (!T_map_base) return rest("no odometry");
-  if (now - chosen_at_ >= nanosecondsOf(config_.inform.period)) {
-    chosen_at_ = now;
-    const LookingPlace place{*T_map_base, *T_base_mount_,
-                             map_->nearestRoom(T_map_base->mean.translation()),
-                             watch_.angle().value_or(config_.rest), twist()};
-    look_ = informative_.choose(place, *map_, visibility_);
-  }
-  if (!look_.has_walls) return rest("no wall of the map is within reach");
-  return look_.angle;
+  const auto choice = informing_.choose(now, T_base_mount_, watch_.angle().value_or(config_.rest));
+  return choice.angle ? choice.angle : rest(choice.fault);
 }
 
 std::optional<double> GazeControl::wanted(std::int64_t now) {
@@ -240,8 +179,8 @@ std::optional<double> GazeControl::wanted(std::int64_t now) {
 }
 
 void GazeControl::restartClock(std::int64_t now) {
-  odometry_.clear();
-  pose_.reset();
+  motion_.clear();
+  informing_.clearPose();
   features_.clear();
   features_stamp_.reset();
   const bool was_fixating = fixation_.has_value();
@@ -251,8 +190,6 @@ void GazeControl::restartClock(std::int64_t now) {
     state_.message = "the clock was set back";
   }
   commanded_.reset();
-  chosen_at_ = 0;
-  scanned_at_ = 0;
   watch_.restart(now);
 }
 

@@ -1,5 +1,6 @@
 #include "sightline/gaze/wall_visibility.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sightline::gaze {
@@ -7,23 +8,12 @@ namespace sightline::gaze {
 namespace {
 
 constexpr struct {
-  double stretch = 0.25;   // of wall that is seen or hidden as one [m]
-  std::size_t every = 4;   // beam that is looked at
-  double agrees = 0.1;     // a range that is so near to the map's is of the wall [m], and
-  double sigmas = 4.0;     // its noise
-  double obliquity = 0.2;  // of a wall that is hardly met [cosine]
+  double stretch = 0.25;  // of wall that is seen or hidden as one [m]
   // What is thought of a wall that nobody has looked at, as beams that met it and did not.
   double seen = 3.0;
   double hidden = 1.0;
   double most = 30.0;  // beams that are remembered
 } kVisibility;
-
-bool meetsWall(const scan::Scan& scan, std::size_t beam, const world::Sighting& sighting) {
-  if (!scan.isValid(beam)) return false;
-  const double sigma = std::sqrt(scan.rangeVariances()[beam]);
-  return std::abs(scan.ranges()[beam] - sighting.range) <
-         kVisibility.agrees + kVisibility.sigmas * sigma;
-}
 
 }  // namespace
 
@@ -40,19 +30,11 @@ void WallVisibility::fade(double elapsed) {
   }
 }
 
-void WallVisibility::take(const scan::Scan& scan, const world::RoomMap& map, std::size_t room,
-                          const geometry::Pose2& T_map_sensor, double elapsed) {
+void WallVisibility::take(const std::vector<MappedBeam>& beams, double elapsed) {
   fade(elapsed);
-  const world::RoomView view(map, room, T_map_sensor.translation(), world::RoomView::Doors::kOpen);
-  const Eigen::Matrix2d R = T_map_sensor.rotation();
-  for (std::size_t beam = 0; beam < scan.beams(); beam += kVisibility.every) {
-    const auto sighting = view.look(R * scan.direction(beam));
-    if (!sighting || !sighting->is_solid || sighting->cos_incidence < kVisibility.obliquity ||
-        sighting->range > scan.geometry()->rangeMax()) {
-      continue;
-    }
-    Count& count = stretches_[stretchOf(*sighting)];
-    double& side = meetsWall(scan, beam, *sighting) ? count.seen : count.hidden;
+  for (const MappedBeam& beam : beams) {
+    Count& count = stretches_[stretchOf(beam.sighting)];
+    double& side = beam.meets_wall ? count.seen : count.hidden;
     side = std::min(kVisibility.most, side + 1.0);
   }
 }

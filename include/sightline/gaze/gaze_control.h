@@ -3,14 +3,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sightline/gaze/fixation.h"
 #include "sightline/gaze/gaze_config.h"
 #include "sightline/gaze/head_watch.h"
-#include "sightline/gaze/informative_gaze.h"
-#include "sightline/gaze/wall_visibility.h"
-#include "sightline/motion/pose_history.h"
+#include "sightline/gaze/informing_head.h"
 #include "sightline/scan/scan.h"
 #include "sightline/world/room_map.h"
 
@@ -45,7 +44,7 @@ class GazeControl {
   GazeControl(const GazeControl&) = delete;
   GazeControl& operator=(const GazeControl&) = delete;
 
-  void setMap(world::RoomMap map);
+  void setMap(world::RoomMap map) { informing_.setMap(std::move(map)); }
   void setMounting(const geometry::Pose2& T_base_mount) { T_base_mount_ = T_base_mount; }
   void setField(const SensorField& field) { config_.field = field; }
 
@@ -70,18 +69,10 @@ class GazeControl {
   const GazeConfig& config() const { return config_; }
 
  private:
-  struct Stamped {
-    std::int64_t stamp = 0;
-    geometry::UncertainPose2 T_map_base;
-  };
   void restartClock(std::int64_t now);
   void setMode(GazeMode mode);
   Fixated fixate(const geometry::Feature* feature, const std::string& fault);
-  std::optional<geometry::Pose2> T_odom_baseAt(std::int64_t stamp) const;
-  Eigen::Vector3d twist() const;
-  std::optional<geometry::UncertainPose2> T_map_baseAt(std::int64_t stamp) const;
   bool isFresh(const std::optional<std::int64_t>& stamp, std::int64_t now) const;
-  bool isOdometryFresh(std::int64_t now) const;
 
   std::optional<double> wanted(std::int64_t now);
   std::optional<double> wantedFixating(std::int64_t now);
@@ -94,19 +85,13 @@ class GazeControl {
   GazeConfig config_;
   GazeState state_;
   HeadWatch watch_;
-  InformativeGaze informative_;
-  WallVisibility visibility_;
-  std::optional<world::RoomMap> map_;
+  CarrierMotion motion_;
+  InformingHead informing_;
   std::optional<geometry::Pose2> T_base_mount_;
-  motion::PoseHistory odometry_;
-  std::optional<Stamped> pose_;
   std::vector<geometry::Feature> features_;
   std::optional<std::int64_t> features_stamp_;
   std::optional<Fixation> fixation_;
   std::optional<std::int64_t> now_;
-  std::int64_t scanned_at_ = 0;  // last scan that was looked at for what hides walls
-  std::int64_t chosen_at_ = 0;   // last choice of the mode inform
-  Look look_;
   double sweep_sense_ = 1.0;
   std::optional<double> commanded_;  // [rad]
   std::int64_t commanded_at_ = 0;

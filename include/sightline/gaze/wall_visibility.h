@@ -3,10 +3,9 @@
 #include <cstddef>
 #include <map>
 #include <tuple>
+#include <vector>
 
-#include "sightline/geometry/pose2.h"
-#include "sightline/scan/scan.h"
-#include "sightline/world/room_view.h"
+#include "sightline/gaze/wall_look.h"
 
 namespace sightline::gaze {
 
@@ -17,9 +16,8 @@ class WallVisibility {
   /// What was found is forgotten in the time `forget` [s].
   explicit WallVisibility(double forget) : forget_(forget) {}
 
-  /// Takes a scan from a sensor at a pose in a room.
-  void take(const scan::Scan& scan, const world::RoomMap& map, std::size_t room,
-            const geometry::Pose2& T_map_sensor, double elapsed);
+  /// Takes the beams of a scan, so long after those before [s].
+  void take(const std::vector<MappedBeam>& beams, double elapsed);
   /// Probability that a beam meets the wall where the map says so.
   double at(const world::Sighting& sighting) const;
   void clear() { stretches_.clear(); }

@@ -69,11 +69,11 @@ class GazeRig {
     const std::int64_t stamp = estimates.located.scan.stamp;
     gaze_.setField(fieldOf(estimates.located.scan));
     if (estimates.features) gaze_.takeFeatures(stamp, *estimates.features);
-    if (estimates.rooms) gaze_.takePose(stamp, estimates.rooms->pose);
     if (estimates.located.T_base_sensor) {
       gaze_.takeScan(estimates.located.scan,
                      T_base_mount_.inverse() * *estimates.located.T_base_sensor);
     }
+    if (estimates.rooms) gaze_.takePose(stamp, estimates.rooms->pose);
   }
 
   Drive& drive_;
