@@ -275,7 +275,7 @@ TEST_F(GazeControlTest, TurnsToWhatIsUncertain) {
     gaze_.takePose(now_, {Pose2(0.0, 0.0, 0.0), Eigen::Vector3d(1e-5, 0.04, 1e-5).asDiagonal()});
     run(0.1);
   }
-  EXPECT_GT(std::abs(head_.angle()), 0.3);
+  EXPECT_GT(std::abs(head_.angle()), 0.2);
   EXPECT_EQ(message(), "");
 }
 
