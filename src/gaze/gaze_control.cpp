@@ -54,6 +54,7 @@ void GazeControl::takeFeatures(std::int64_t stamp, const std::vector<geometry::F
 
 void GazeControl::takeHead(std::int64_t now, double angle) {
   watch_.report(angle, now);
+  if (interrupted_) setMode(*std::exchange(interrupted_, std::nullopt));
 }
 
 void GazeControl::takeScan(const scan::Scan& scan, const Pose2& T_mount_sensor) {
@@ -65,6 +66,7 @@ void GazeControl::setMode(GazeMode mode) {
   state_.mode = mode;
   if (mode != GazeMode::kFixate) fixation_.reset();
   commanded_.reset();
+  interrupted_.reset();
   informing_.chooseAnew();
   if (now_) watch_.restart(*now_);
 }
@@ -193,12 +195,16 @@ void GazeControl::restartClock(std::int64_t now) {
   watch_.restart(now);
 }
 
-// A head at fault is left alone, until somebody tries again.
+// A head at fault is left alone, until somebody tries again. One that had not answered, as before
+// its driver runs, and now does goes on with what needs no feature of before.
 bool GazeControl::watchHead(std::int64_t now) {
   const std::string fault = watch_.fault(now);
   if (fault.empty()) return true;
+  const GazeMode mode = state_.mode;
+  const bool may_go_on = watch_.isSilent(now) && mode != GazeMode::kFixate;
   hold();
   state_.message = fault;
+  if (may_go_on) interrupted_ = mode;
   return false;
 }
 

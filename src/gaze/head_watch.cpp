@@ -38,9 +38,13 @@ void HeadWatch::report(double angle, std::int64_t now) {
 
 std::string HeadWatch::fault(std::int64_t now) const {
   if (!target_) return "";
-  if (now - reported_at_ > answer_) return "the head does not answer";
+  if (isSilent(now)) return "the head does not answer";
   if (!hasArrived() && now - moved_at_ > answer_) return "the head is stuck";
   return "";
+}
+
+bool HeadWatch::isSilent(std::int64_t now) const {
+  return target_ && now - reported_at_ > answer_;
 }
 
 void HeadWatch::restart(std::int64_t now) {

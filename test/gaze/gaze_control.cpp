@@ -239,6 +239,17 @@ TEST_F(GazeControlTest, SaysWithinASecondThatTheHeadDoesNotAnswer) {
   EXPECT_EQ(message(), "the head does not answer");
 }
 
+TEST_F(GazeControlTest, GoesOnWhenTheHeadAnswers) {
+  reports_ = false;
+  gaze_.sweep();
+  run(2.0);
+  EXPECT_EQ(message(), "the head does not answer");
+  reports_ = true;
+  run(1.0);
+  EXPECT_EQ(mode(), GazeMode::kSweep);
+  EXPECT_EQ(message(), "");
+}
+
 TEST_F(GazeControlTest, HoldsWhereTheClockWasSetBack) {
   run(0.3);
   ASSERT_TRUE(gaze_.fixate(4).success);

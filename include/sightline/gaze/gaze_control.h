@@ -93,7 +93,8 @@ class GazeControl {
   std::optional<Fixation> fixation_;
   std::optional<std::int64_t> now_;
   double sweep_sense_ = 1.0;
-  std::optional<double> commanded_;  // [rad]
+  std::optional<double> commanded_;      // [rad]
+  std::optional<GazeMode> interrupted_;  // by a head that did not answer
   std::int64_t commanded_at_ = 0;
 };
 

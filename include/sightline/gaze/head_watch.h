@@ -21,6 +21,8 @@ class HeadWatch {
   void report(double angle, std::int64_t now);
   /// What is wrong with the head; empty where nothing is.
   std::string fault(std::int64_t now) const;
+  /// Whether it was commanded and has not reported since for too long.
+  bool isSilent(std::int64_t now) const;
   /// Starts to watch anew: the clock was set, or somebody tries again.
   void restart(std::int64_t now);
 
