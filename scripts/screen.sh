@@ -14,11 +14,11 @@ take_picture() {
   DISPLAY=$screen xwd -root -silent 2>/dev/null | convert xwd:- "$1" 2>/dev/null
 }
 
-# shows FILE R,G,B:N...: whether a picture has more than N pixels of about each colour.
+# shows FILE R,G,B:N...: whether a picture has more than N pixels of about each colour where rviz draws the scene.
 shows() {
   local picture=$1
   shift
-  convert "$picture" -depth 8 -format %c histogram:info:- | awk -F'[(),]' -v wanted="$*" '
+  convert "$picture" -crop 860x640+400+110 -depth 8 -format %c histogram:info:- | awk -F'[(),]' -v wanted="$*" '
     BEGIN { n = split(wanted, colour, " ")
             for (i = 1; i <= n; ++i) { split(colour[i], part, /[,:]/); red[i] = part[1]; green[i] = part[2]
                                        blue[i] = part[3]; least[i] = part[4] } }

@@ -122,12 +122,14 @@ Marker roomName(const Scene& scene) {
   return textAt(above, scene.update.room, scene.header);
 }
 
-Eigen::Vector2d middleOf(const world::RoomMap& map) {
+// Where a view of the map begins: at its origin, unless that is outside.
+Eigen::Vector2d firstSeen(const world::RoomMap& map) {
   Eigen::AlignedBox2d box;
   for (const world::Room& room : map.rooms()) {
     for (const world::Wall& wall : room.walls) box.extend(wall.segment.start);
   }
-  return box.center();
+  const Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  return box.contains(origin) ? origin : Eigen::Vector2d(box.center());
 }
 
 }  // namespace
@@ -154,7 +156,7 @@ visualization_msgs::MarkerArray awaitingMarkers(const world::RoomMap& map, const
   Marker walls = emptyMarker("walls", Marker::LINE_LIST, header, kWallWidth);
   addWalls(map, "", walls);
   visualization_msgs::MarkerArray array;
-  array.markers = {clear, walls, textAt(middleOf(map), text, header)};
+  array.markers = {clear, walls, textAt(firstSeen(map), text, header)};
   return array;
 }
 

@@ -53,8 +53,8 @@ void RoomOutput::writeFrameOfRooms(Output& output) {
 void RoomOutput::drawAwaited() {
   if (has_pose_ || !markers_.is_wanted || !markers_.is_wanted()) return;
   const char* text = scans_ == 0
-                         ? "no scan was used yet: see the terminal, or /diagnostics"
-                         : "no pose yet: 2D Pose Estimate, or drive 2 m, or turn by 180 degrees";
+                         ? "no scan was used yet:\nsee the terminal, or /diagnostics"
+                         : "no pose yet:\n2D Pose Estimate,\nor drive 2 m,\nor turn by 180 degrees";
   markers_.write(awaitingMarkers(map_, text, frames_.map));
 }
 

@@ -131,7 +131,7 @@ TEST_F(RoomTrackerInput, RoomsAreDrawnBeforeThereIsAPose) {
   ASSERT_EQ(markers.size(), 3U);
   EXPECT_EQ(markers[0].action, visualization_msgs::Marker::DELETEALL);
   EXPECT_GE(markers[1].points.size(), 8U) << "four walls";
-  EXPECT_EQ(markers[2].text, "no scan was used yet: see the terminal, or /diagnostics");
+  EXPECT_EQ(markers[2].text, "no scan was used yet:\nsee the terminal, or /diagnostics");
   EXPECT_TRUE(comesTrue(
       [&] { return buffer.canTransform("unlocated/map", "unlocated/map_rooms", ros::Time(0)); },
       [] {}));
