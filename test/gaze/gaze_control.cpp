@@ -290,14 +290,5 @@ TEST_F(GazeControlTest, TurnsToWhatIsUncertain) {
   EXPECT_EQ(message(), "");
 }
 
-TEST(GazeConfig, RefusesARestBeyondTheLimits) {
-  GazeConfig config;
-  config.rest = 2.0;
-  EXPECT_THROW(GazeControl{config}, config::Error);
-  config.rest = 0.0;
-  config.field.range_min = 3.0;
-  EXPECT_THROW(GazeControl{config}, config::Error);
-}
-
 }  // namespace
 }  // namespace sightline::gaze

@@ -144,5 +144,14 @@ TEST_F(InformativeGazeTest, LearnsWhatHidesAWall) {
   EXPECT_NEAR(visibility_.at(*sighting), before, 0.01);
 }
 
+TEST(GazeConfig, RefusesARestBeyondTheLimits) {
+  GazeConfig config;
+  config.rest = 2.0;
+  EXPECT_THROW(GazeControl{config}, config::Error);
+  config.rest = 0.0;
+  config.field.range_min = 3.0;
+  EXPECT_THROW(GazeControl{config}, config::Error);
+}
+
 }  // namespace
 }  // namespace sightline::gaze
