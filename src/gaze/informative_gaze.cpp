@@ -36,13 +36,12 @@ double InformativeGaze::angleAfter(double from, double to, double time) const {
   return time >= travel ? to : from + (to - from) * time / travel;
 }
 
-// From the middle of the way ahead, all round: the carrier may turn.
+// All round, as the carrier may turn.
 std::vector<InformativeGaze::Ray> InformativeGaze::cast(const LookingPlace& place,
+                                                        const Pose2& T_map_base,
                                                         const world::RoomMap& map,
                                                         const WallVisibility& visibility) const {
   const SensorField& field = config_->field;
-  const Pose2 T_map_base =
-      place.T_map_base * Pose2::exp(0.5 * config_->inform.horizon * place.twist);
   const Vector2d eye = (T_map_base * place.T_base_mount).translation();
   const world::RoomView view(map, place.room, eye, world::RoomView::Doors::kOpen);
   const double beams_a_ray = kLooks.ray * field.beams / (2.0 * field.half_width);
@@ -63,6 +62,15 @@ void InformativeGaze::look(const std::vector<Ray>& rays, double heading, WallLoo
     const double off = geometry::wrapAngle(ray.heading - heading);
     if (std::abs(off) < config_->field.half_width) looks.add(ray.sighting, ray.weight);
   }
+}
+
+std::vector<WallLook> InformativeGaze::looksAt(const LookingPlace& place, double head_angle,
+                                               const world::RoomMap& map,
+                                               const WallVisibility& visibility) const {
+  WallLooks looks(map);
+  look(cast(place, place.T_map_base, map, visibility),
+       (place.T_map_base * place.T_base_mount).theta() + head_angle + config_->field.centre, looks);
+  return looks.all();
 }
 
 double InformativeGaze::expectedVariance(const LookingPlace& place, const std::vector<Ray>& rays,
@@ -88,7 +96,8 @@ double InformativeGaze::expectedVariance(const LookingPlace& place, const std::v
 
 Look InformativeGaze::choose(const LookingPlace& place, const world::RoomMap& map,
                              const WallVisibility& visibility) const {
-  const std::vector<Ray> rays = cast(place, map, visibility);
+  const Pose2 halfway = place.T_map_base * Pose2::exp(0.5 * config_->inform.horizon * place.twist);
+  const std::vector<Ray> rays = cast(place, halfway, map, visibility);
   Look best{place.head_angle, std::numeric_limits<double>::infinity(), !rays.empty()};
   if (rays.empty()) return best;
   WallLooks looks(map);

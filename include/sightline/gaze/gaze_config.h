@@ -22,7 +22,7 @@ struct InformConfig {
   double wall_position_sigma = 0.01;    ///< of a wall of the map [m]
   double wall_direction_sigma = 0.004;  ///< [rad]
   double least_length = 0.25;           ///< of wall in view, for it to count [m]
-  double horizon = 2.0;                 ///< time ahead that a choice is judged by [s]
+  double horizon = 3.0;                 ///< time ahead that a choice is judged by [s]
   double period = 0.2;                  ///< between two choices [s]
   double forget = 20.0;                 ///< what hides a wall is forgotten in this time [s]
 

@@ -40,6 +40,9 @@ class InformativeGaze {
 
   Look choose(const LookingPlace& place, const world::RoomMap& map,
               const WallVisibility& visibility) const;
+  /// What one scan at a head angle is expected to say of the walls, from where the carrier is now.
+  std::vector<WallLook> looksAt(const LookingPlace& place, double head_angle,
+                                const world::RoomMap& map, const WallVisibility& visibility) const;
   /// Time in which the head gets from one angle to another [s].
   double travelTime(double from, double to) const;
 
@@ -50,8 +53,8 @@ class InformativeGaze {
     world::Sighting sighting;
     double weight;  // inverse variance of the range, of all beams it is for [1/m²]
   };
-  std::vector<Ray> cast(const LookingPlace& place, const world::RoomMap& map,
-                        const WallVisibility& visibility) const;
+  std::vector<Ray> cast(const LookingPlace& place, const geometry::Pose2& T_map_base,
+                        const world::RoomMap& map, const WallVisibility& visibility) const;
   // What is seen of the walls in a direction of the middle of the field.
   void look(const std::vector<Ray>& rays, double heading, WallLooks& looks) const;
   double expectedVariance(const LookingPlace& place, const std::vector<Ray>& rays, double angle,

@@ -86,6 +86,40 @@ inline PoseSpread spreadOf(const GazePlace& place, const GazeWay& way, std::uint
   return spread;
 }
 
+/// Certainty of a sensor that looks everywhere at once that its head can turn to, where nothing
+/// hides a wall and the scale of the wheels is known: no gaze can do better on this way.
+inline double boundOf(const GazePlace& place) {
+  const auto map = world::RoomMap::readFile(std::string(SIGHTLINE_SOURCE_DIR "/config/rooms/") +
+                                            place.name + ".yaml");
+  gaze::GazeConfig config;
+  const double widening = 1.0 + config.head.upper / config.field.half_width;
+  config.field.half_width *= widening;
+  config.field.beams = static_cast<int>(config.field.beams * widening);
+  const gaze::InformativeGaze everywhere(config);
+  simulation::Carrier carrier(simulation::RobotConfig{}, place.start, 1);
+  carrier.follow(pathOf(place.path));
+  gaze::LookingPlace at;
+  at.T_map_base = place.start;
+  at.T_base_mount = {0.1, 0.0, 0.0};
+  at.uncertainty = {Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 0.02 * 0.02).asDiagonal(),
+                    {config.inform.wall_position_sigma, config.inform.wall_direction_sigma}};
+  PoseSpread spread;
+  while (carrier.time() < std::llround(1e9 * place.seconds)) {
+    carrier.move();
+    if (carrier.time() % 100'000'000 != 0) continue;
+    const geometry::Pose2 T_map_base = carrier.robot().T_map_base();
+    at.uncertainty.predict(at.T_map_base, geometry::between(at.T_map_base, T_map_base),
+                           simulation::RobotConfig{}.odometry);
+    at.T_map_base = T_map_base;
+    for (const auto& wall : everywhere.looksAt(at, 0.0, map, gaze::WallVisibility(1.0))) {
+      at.uncertainty.take(wall, T_map_base.translation(), 1.0);
+    }
+    spread.sigmas += std::sqrt(at.uncertainty.covariance().topLeftCorner<2, 2>().trace());
+    spread.scans += 1.0;
+  }
+  return spread.sigma();
+}
+
 inline void triangulation(std::uint64_t seeds) {
   for (const GazePlace& place : kGazePlaces) {
     double best_sigma = 1e9, best_error = 1e9;
@@ -110,6 +144,8 @@ inline void triangulation(std::uint64_t seeds) {
             sum.sigma() / best_sigma, "1");
       print(std::string("gaze.triangulation.") + place.name + ".error_ratio",
             sum.error() / best_error, "1");
+      print(std::string("gaze.triangulation.") + place.name + ".bound_ratio",
+            boundOf(place) / best_sigma, "1");
     }
   }
 }
