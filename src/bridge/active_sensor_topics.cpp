@@ -2,12 +2,9 @@
 
 #include <utility>
 
-#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
 
-#include "sightline/bridge/head_command_conversion.h"
-#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/range_scan_conversion.h"
-#include "sightline/bridge/time.h"
 
 namespace sightline::bridge {
 
@@ -22,16 +19,14 @@ void ActiveSensorNames::visit(config::FieldVisitor& visitor) {
 ActiveSensorTopics::ActiveSensorTopics(ros::NodeHandle node, const ActiveSensorNames& names,
                                        const motion::HeadLimits& limits,
                                        diagnostic_updater::Updater& updater,
-                                       OnHeadCommand on_command)
+                                       HeadTopics::OnCommand on_command)
     : names_(names),
-      limits_(limits),
-      monitor_(node.resolveName(names.head_command), updater, InputMonitor::Flow::kPerhaps),
-      on_command_(std::move(on_command)),
+      head_(node,
+            {names.joint_states, names.head_command, names.frames.joint, names.frames.mount,
+             names.frames.head},
+            limits, updater, std::move(on_command)),
       range_scan_publisher_(node.advertise<RangeScan>(names.range_scan, 10)),
-      scan_publisher_(node.advertise<sensor_msgs::LaserScan>(names.scan, 10)),
-      joint_publisher_(node.advertise<sensor_msgs::JointState>(names.joint_states, 100)),
-      command_subscriber_(
-          node.subscribe(names.head_command, 10, &ActiveSensorTopics::onHeadCommand, this)) {}
+      scan_publisher_(node.advertise<sensor_msgs::LaserScan>(names.scan, 10)) {}
 
 void ActiveSensorTopics::publish(motion::RangeScan& range_scan) const {
   range_scan.scan.frame = names_.frames.projection;
@@ -39,36 +34,6 @@ void ActiveSensorTopics::publish(motion::RangeScan& range_scan) const {
   const RangeScan message = toMessage(range_scan);
   range_scan_publisher_.publish(message);
   scan_publisher_.publish(toLaserScan(message));
-}
-
-void ActiveSensorTopics::publishHead(const std::vector<HeadSample>& samples) {
-  std::vector<geometry_msgs::TransformStamped> transforms;
-  for (const HeadSample& sample : samples) {
-    transforms.push_back(toTransformMessage(names_.frames.mount, names_.frames.head, sample.stamp,
-                                            geometry::Pose2(0.0, 0.0, sample.angle)));
-  }
-  if (broadcaster_ && !transforms.empty()) broadcaster_->sendTransform(transforms);
-  for (const HeadSample& sample : samples) publishJoint(sample);
-}
-
-void ActiveSensorTopics::publishJoint(const HeadSample& sample) const {
-  sensor_msgs::JointState message;
-  message.header.stamp = timeOf(sample.stamp);
-  message.name = {names_.frames.joint};
-  message.position = {sample.angle};
-  message.velocity = {sample.rate};
-  joint_publisher_.publish(message);
-}
-
-// Several heads may hear one topic; each obeys what names its joint, or none.
-void ActiveSensorTopics::onHeadCommand(const HeadCommand& message) {
-  if (!message.joint.empty() && message.joint != names_.frames.joint) return;
-  try {
-    on_command_(fromMessage(message, names_.frames.joint, limits_));
-    monitor_.accept();
-  } catch (const InvalidHeadCommand& fault) {
-    monitor_.drop(fault.what());
-  }
 }
 
 }  // namespace sightline::bridge

@@ -8,7 +8,7 @@ namespace sightline::gaze {
 
 namespace {
 
-// Longest time between two scans that is taken for the sensor's period [s].
+// Longest time between two poses that is taken for the period of the sensor's scans [s].
 constexpr double kLongestPeriod = 2.0;
 
 }  // namespace
@@ -46,6 +46,8 @@ void InformingHead::takePose(std::int64_t stamp, const geometry::UncertainPose2&
   uncertainty_ = carried ? carried->uncertainty
                          : PoseUncertainty(T_map_base.covariance, {inform.wall_position_sigma,
                                                                    inform.wall_direction_sigma});
+  const double elapsed = 1e-9 * static_cast<double>(stamp - told_at_);
+  if (T_map_base_ && elapsed > 0.0 && elapsed < kLongestPeriod) pose_period_ = elapsed;
   T_map_base_ = T_map_base;
   told_at_ = stamp;
   uncertainty_->adopt(T_map_base.covariance);
@@ -62,7 +64,6 @@ void InformingHead::takeScan(const scan::Scan& scan, const geometry::Pose2& T_ba
                               T_map_base * T_base_mount * T_mount_sensor);
   const double elapsed = 1e-9 * static_cast<double>(std::max<std::int64_t>(
                                     0, scan.stamp - std::exchange(scanned_at_, scan.stamp)));
-  if (elapsed > 0.0 && elapsed < kLongestPeriod) scan_period_ = elapsed;
   visibility_.take(beams, std::min(elapsed, 10.0));
   WallLooks looks(*map_);
   for (const MappedBeam& beam : beams) {
@@ -84,7 +85,7 @@ Look InformingHead::choose(const Carried& carried, const geometry::Pose2& T_base
   place.room = map_->nearestRoom(carried.T_map_base.translation());
   place.head_angle = head_angle;
   place.twist = motion_->twist();
-  place.scan_period = scan_period_;
+  place.scan_period = pose_period_;
   return informative_.choose(place, *map_, visibility_);
 }
 

@@ -63,7 +63,9 @@ class GazeNode {
     features_subscriber_ = node.subscribe("features", 10, &GazeNode::onFeatures, this);
     pose_subscriber_ = node.subscribe("pose", 10, &GazeNode::onPose, this);
     head_subscriber_ = node.subscribe("joint_states", 100, &GazeNode::onHead, this);
-    scan_subscriber_ = node.subscribe(config_.range_scan, 10, &GazeNode::onScan, this);
+    if (!config_.range_scan.empty()) {
+      scan_subscriber_ = node.subscribe(config_.range_scan, 10, &GazeNode::onScan, this);
+    }
     timer_ = node.createSteadyTimer(ros::WallDuration(1.0 / config_.rate),
                                     [this](const ros::SteadyTimerEvent&) { decide(); });
   }

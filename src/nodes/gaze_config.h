@@ -21,7 +21,7 @@ struct GazeNodeConfig {
     visitor.path("map", map, "path of the rooms file, for the mode inform; may be empty");
     visitor.text("range_scan", range_scan,
                  "topic of the sensor on the head: its field, and what hides the walls of the map; "
-                 "without such scans the field is that of the parameters");
+                 "without such scans, or with an empty name, the field is that of the parameters");
     visitor.text("map_frame", frames.map, "frame of pose");
     visitor.text("odom_frame", frames.odom, "frame of features");
     visitor.text("base_frame", frames.base, "frame of the robot");

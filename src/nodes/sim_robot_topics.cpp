@@ -56,10 +56,28 @@ void SimRobotTopics::addScanner(const SimScannerConfig& config) {
   const auto profile = config.profile.empty()
                            ? simulation::ScannerProfile{}
                            : simulation::ScannerProfile::readFile(config.profile);
+  scanners_.push_back({config, node_.advertise<sensor_msgs::LaserScan>(config.topic, 50), nullptr});
+  if (!config.turret_urdf.empty()) return addTurret(profile, scanners_.back());
   carrier_.addScanner(profile, config.mounting, config.turret_rate);
-  scanners_.push_back({config, node_.advertise<sensor_msgs::LaserScan>(config.topic, 50)});
   if (config.turret_rate != 0.0) return;
   broadcastStatic(config_.base_frame, config.frame, config.mounting.T_base_sensor());
+}
+
+void SimRobotTopics::addTurret(const simulation::ScannerProfile& profile, Scanner& scanner) {
+  const SimScannerConfig& config = scanner.config;
+  const driver::HeadFrames frames{config.turret_joint, "turret_mount", "turret", config.frame};
+  const auto joint = driver::HeadJoint::readFile(config.turret_urdf, frames);
+  const std::size_t index = scanners_.size() - 1;
+  carrier_.addScanner(profile, config.mounting, joint.limits);
+  const bridge::HeadNames names{"joint_states", "head_command", frames.joint, frames.mount,
+                                frames.head};
+  scanner.turret = std::make_unique<bridge::HeadTopics>(
+      node_, names, joint.limits, updater_, [this, index](const motion::HeadCommand& command) {
+        carrier_.commandTurret(index, command);
+      });
+  scanner.turret->broadcast();
+  broadcastStatic(config_.base_frame, frames.mount, config.mounting.T_base_sensor());
+  broadcastStatic(frames.head, config.frame, Eigen::Isometry3d::Identity());
 }
 
 void SimRobotTopics::addActiveSensor(const SimActiveSensorConfig& config) {
@@ -71,7 +89,7 @@ void SimRobotTopics::addActiveSensor(const SimActiveSensorConfig& config) {
       node_, config.names, profile.head, updater_,
       [this, index](const motion::HeadCommand& command) { carrier_.commandHead(index, command); }));
   if (!config.publish_tf) return;
-  active_sensors_.back()->broadcastHead();
+  active_sensors_.back()->head().broadcast();
   broadcastStatic(config_.base_frame, frames.mount, config.mounting.T_base_sensor());
   // Place where the scan's origin is believed to be, which need not be where it is.
   const Eigen::Vector2d origin = carrier_.calibration(index).parameters.origin.position();
@@ -132,6 +150,7 @@ void SimRobotTopics::publish(const simulation::ReportedMotion& motion) {
 void SimRobotTopics::broadcastTurrets(std::int64_t run_time) {
   for (std::size_t i = 0; i < scanners_.size(); ++i) {
     const SimScannerConfig& scanner = scanners_[i].config;
+    if (scanners_[i].turret && run_time == 0) scanners_[i].turret->publish({{clock_.stampOf(0)}});
     if (scanner.turret_rate == 0.0) continue;
     broadcaster_.sendTransform(bridge::toTransformMessage(config_.base_frame, scanner.frame,
                                                           clock_.stampOf(run_time),
@@ -147,7 +166,13 @@ void SimRobotTopics::publish(simulation::FinishedSweep& sweep) {
 }
 
 void SimRobotTopics::publish(const simulation::ReportedHead& head) {
-  active_sensors_[head.sensor]->publishHead({{clock_.stampOf(head.stamp), head.angle, head.rate}});
+  active_sensors_[head.sensor]->head().publish(
+      {{clock_.stampOf(head.stamp), head.angle, head.rate}});
+}
+
+void SimRobotTopics::publish(const simulation::ReportedTurret& turret) {
+  scanners_[turret.scanner].turret->publish(
+      {{clock_.stampOf(turret.stamp), turret.angle, turret.rate}});
 }
 
 void SimRobotTopics::publish(simulation::FinishedRangeScan& finished) {

@@ -33,15 +33,18 @@ class SimRobotTopics {
   void publish(const simulation::ReportedMotion& motion);
   void publish(simulation::FinishedSweep& sweep);
   void publish(const simulation::ReportedHead& head);
+  void publish(const simulation::ReportedTurret& turret);
   void publish(simulation::FinishedRangeScan& finished);
 
  private:
   struct Scanner {
     SimScannerConfig config;
     ros::Publisher publisher;
+    std::unique_ptr<bridge::HeadTopics> turret;  // that is commanded; none otherwise
   };
 
   void addScanner(const SimScannerConfig& config);
+  void addTurret(const simulation::ScannerProfile& profile, Scanner& scanner);
   void addActiveSensor(const SimActiveSensorConfig& config);
   void broadcastStatic(const std::string& parent, const std::string& child,
                        const Eigen::Isometry3d& T_parent_child);

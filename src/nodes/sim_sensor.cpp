@@ -91,6 +91,7 @@ void SimSensorNode::step() {
   publishEach(outputs.states);
   publishEach(outputs.motions);
   publishEach(outputs.heads);
+  publishEach(outputs.turrets);
   publishEach(outputs.sweeps);
   publishEach(outputs.range_scans);
 }

@@ -18,6 +18,8 @@ struct SimScannerConfig {
   std::string frame = "laser";
   simulation::Mounting mounting;
   double turret_rate = 0.0;  ///< [rad/s]
+  std::string turret_urdf;   ///< path
+  std::string turret_joint = "turret_joint";
 
   void visit(config::FieldVisitor& visitor) {
     visitor.path("profile", profile, "path of the scanner's profile; empty: Hokuyo UTM-30LX");
@@ -28,6 +30,10 @@ struct SimScannerConfig {
                    {"rad/s",
                     {-100.0, 100.0},
                     "of a turret that carries the scanner and turns about its z axis; 0: fixed"});
+    visitor.path("turret_urdf", turret_urdf,
+                 "path of a robot description whose joint turns a turret that carries the scanner, "
+                 "as head_command says; empty: none");
+    visitor.text("turret_joint", turret_joint, "of that turret; its links turret_mount and turret");
   }
 };
 

@@ -112,7 +112,7 @@ SyncScanDriverNode::~SyncScanDriverNode() {
 // fixed joint as well, tf hears the same twice.
 void SyncScanDriverNode::broadcastHead(const driver::HeadJoint& joint) {
   const driver::HeadFrames& frames = config_.names.frames;
-  topics_->broadcastHead();
+  topics_->head().broadcast();
   static_broadcaster_ = std::make_unique<tf2_ros::StaticTransformBroadcaster>();
   static_broadcaster_->sendTransform(bridge::toTransformMessage(
       frames.head, frames.projection, bridge::nanoseconds(ros::Time::now()),
@@ -123,7 +123,7 @@ void SyncScanDriverNode::broadcastHead(const driver::HeadJoint& joint) {
 void SyncScanDriverNode::work() {
   while (const auto raw = queue_.pop()) {
     publish(*raw);
-    topics_->publishHead(headSamples(*raw));
+    topics_->head().publish(headSamples(*raw));
     diagnostics_->tick();
   }
 }

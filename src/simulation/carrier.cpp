@@ -25,7 +25,18 @@ void Carrier::addScanner(const ScannerProfile& profile, const Mounting& mounting
                          double turret_rate) {
   // Each scanner gets noise of its own.
   const std::uint64_t seed = seed_ + (static_cast<std::uint64_t>(scanners_.size() + 1) << 32);
-  scanners_.push_back({Scanner(profile, mounting, seed, turret_rate)});
+  scanners_.push_back({Scanner(profile, mounting, seed, turret_rate), nullptr});
+}
+
+void Carrier::addScanner(const ScannerProfile& profile, const Mounting& mounting,
+                         const motion::HeadLimits& turret) {
+  addScanner(profile, mounting);
+  scanners_.back().turret = std::make_shared<Turret>(turret);
+  scanners_.back().scanner.mountOn(scanners_.back().turret);
+}
+
+void Carrier::commandTurret(std::size_t scanner, const motion::HeadCommand& command) {
+  if (scanners_[scanner].turret) scanners_[scanner].turret->command(command);
 }
 
 void Carrier::addActiveSensor(const ActiveSensorProfile& profile, const Mounting& mounting) {
@@ -103,6 +114,7 @@ std::int64_t Carrier::Mounted::nextStamp() const {
 
 void Carrier::measure(const WorldAt& world_at, std::size_t index, Outputs& outputs) {
   sample(world_at, index, outputs);
+  turnTurrets(index, outputs);
   sweep(world_at, index, outputs);
   outputs.motions.push_back(inertialMotion(index));
   if (isReportDue()) outputs.states.push_back(report(index));
@@ -116,6 +128,15 @@ void Carrier::sample(const WorldAt& world_at, std::size_t index, Outputs& output
       outputs.range_scans.push_back({index, i, mounted.ranger.range(raw)});
     }
     outputs.heads.push_back({index, i, time_, head(i).angle(), head(i).rate()});
+  }
+}
+
+void Carrier::turnTurrets(std::size_t index, Outputs& outputs) {
+  for (std::size_t i = 0; i < scanners_.size(); ++i) {
+    if (!scanners_[i].turret) continue;
+    Turret& turret = *scanners_[i].turret;
+    turret.turnUntil(time_);
+    outputs.turrets.push_back({index, i, time_, turret.head().angle(), turret.head().rate()});
   }
 }
 

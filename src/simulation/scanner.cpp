@@ -32,8 +32,9 @@ Scanner::Scanner(const ScannerProfile& profile, const Mounting& mounting, std::u
       random_(randomStream(seed, 1)) {}
 
 Eigen::Isometry3d Scanner::T_base_sensor(std::int64_t time) const {
-  if (turret_rate_ == 0.0) return T_base_turret_;
-  const double angle = turret_rate_ * 1e-9 * static_cast<double>(time);
+  if (!turret_ && turret_rate_ == 0.0) return T_base_turret_;
+  const double angle =
+      turret_ ? turret_->angleAt(time) : turret_rate_ * 1e-9 * static_cast<double>(time);
   return T_base_turret_ * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ());
 }
 

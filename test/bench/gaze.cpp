@@ -8,11 +8,14 @@
 // boxes; nees and in_gate of those called fixed, seen or not; id_changes a minute that a feature
 // stays in view; recall and precision of what is called fixed, of features watched for a second.
 // gaze.triangulation: the tracker on this sensor, mean over the scans of the square root of the
-// trace of x and y; against the better of a fixed head and a sweep.
+// trace of x and y; against the better of a fixed head and a sweep; bound_ratio: what a sensor that
+// looked everywhere at once would have, where nothing hides a wall. gaze.turret: the scanner of
+// jensfelt on a turret, by the shipped settings, against straight ahead.
 #include "bench/gaze/features.h"
 #include "bench/gaze/fixation.h"
 #include "bench/gaze/head.h"
 #include "bench/gaze/triangulation.h"
+#include "bench/gaze/turret.h"
 
 int main() {
   using namespace sightline::bench;
@@ -23,5 +26,6 @@ int main() {
   features({"among_movers", true, true}, kSeeds);
   features({"unmeasured_wheels", true, true, true}, kSeeds);
   triangulation(kSeeds);
+  turret(kSeeds);
   return 0;
 }

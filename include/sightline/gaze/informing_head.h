@@ -53,7 +53,7 @@ class InformingHead {
   std::int64_t told_at_ = 0;
   std::optional<PoseUncertainty> uncertainty_;  // at the same time
   std::int64_t scanned_at_ = 0;
-  double scan_period_ = 0.1;  // [s]
+  double pose_period_ = 0.1;  // of the sensor's scans, too [s]
   std::int64_t chosen_at_ = 0;
   Look look_;
 };

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,9 @@ class Carrier {
   /// Sweeps begin at time 0; `turret_rate` [rad/s] as for Scanner. Throws config::Error.
   void addScanner(const ScannerProfile& profile, const Mounting& mounting,
                   double turret_rate = 0.0);
+  /// The same on a turret that is commanded, and stands straight ahead at first.
+  void addScanner(const ScannerProfile& profile, const Mounting& mounting,
+                  const motion::HeadLimits& turret);
   /// Samples begin at time 0, its head standing straight ahead. Throws config::Error.
   void addActiveSensor(const ActiveSensorProfile& profile, const Mounting& mounting);
   /// Makes a person carry the sensors from now on: the person goes where the robot would, and the
@@ -40,6 +44,8 @@ class Carrier {
   void command(const Velocity& velocity);
   /// Commands the head of an active sensor; a command that its limits do not allow is not heard.
   void commandHead(std::size_t sensor, const motion::HeadCommand& command);
+  /// Commands the turret of a scanner that has one, alike.
+  void commandTurret(std::size_t scanner, const motion::HeadCommand& command);
   /// Sets how often the odometry reports, 50 times a second by default.
   void setOdometryRate(double rate) { odometry_rate_ = rate; }
 
@@ -72,7 +78,8 @@ class Carrier {
  private:
   struct Mounted {
     Scanner scanner;
-    std::int64_t sweeps = 0;  // so far
+    std::shared_ptr<Turret> turret;  // that is commanded; none otherwise
+    std::int64_t sweeps = 0;         // so far
     std::int64_t nextStamp() const;
   };
   struct MountedActiveSensor {
@@ -85,6 +92,7 @@ class Carrier {
   bool isReportDue() const;
   ReportedMotion inertialMotion(std::size_t index) const;
   Eigen::Isometry3d inMap(std::int64_t time) const;
+  void turnTurrets(std::size_t index, Outputs& outputs);
   void sample(const WorldAt& world_at, std::size_t index, Outputs& outputs);
   void sweep(const WorldAt& world_at, std::size_t index, Outputs& outputs);
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -14,6 +15,7 @@
 #include "sightline/simulation/random_stream.h"
 #include "sightline/simulation/scanner_profile.h"
 #include "sightline/simulation/scene.h"
+#include "sightline/simulation/turret.h"
 #include "sightline/world/world.h"
 
 namespace sightline::simulation {
@@ -31,6 +33,8 @@ class Scanner {
   /// turret is at time 0; 0: fixed. Throws config::Error if the profile does not fit together.
   Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed,
           double turret_rate = 0.0);
+  /// Puts the scanner on a turret that turns as it is told, about the z axis of the mounting.
+  void mountOn(std::shared_ptr<const Turret> turret) { turret_ = std::move(turret); }
 
   const ScannerProfile& profile() const { return profile_; }
   std::int64_t sweepDuration() const { return sweep_duration_; }  ///< [ns]
@@ -63,6 +67,7 @@ class Scanner {
   ScannerProfile profile_;
   Eigen::Isometry3d T_base_turret_;
   double turret_rate_;
+  std::shared_ptr<const Turret> turret_;  // none: turns evenly, or not
   std::shared_ptr<const scan::ScanGeometry> geometry_;
   std::int64_t sweep_duration_;
   RandomStream random_;

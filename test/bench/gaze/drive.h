@@ -37,6 +37,12 @@ class Drive {
     carrier().addScanner(profile, mounting);
     transforms_.mount("laser", mounting.T_base_sensor());
   }
+  void addTurret(const simulation::ScannerProfile& profile, const simulation::Mounting& mounting,
+                 const motion::HeadLimits& limits) {
+    carrier().addScanner(profile, mounting, limits);
+    has_turret_ = true;
+    tellTurret();
+  }
   void addActiveSensor(const simulation::ActiveSensorProfile& profile,
                        const simulation::Mounting& mounting = {}) {
     carrier().addActiveSensor(profile, mounting);
@@ -55,6 +61,7 @@ class Drive {
     simulation::Outputs outputs = simulation_.step();
     truth_.add(simulation_.time(), simulation_.robot().T_map_base());
     for (const auto& state : outputs.states) transforms_.drive(state.stamp, state.pose.mean);
+    if (has_turret_) tellTurret();
     if (on_outputs_) on_outputs_(outputs);
     for (auto& finished : outputs.sweeps) {
       finished.scan.frame = "laser";
@@ -72,6 +79,10 @@ class Drive {
   }
 
  private:
+  void tellTurret() {
+    const std::int64_t now = simulation_.time();
+    transforms_.turret("laser", now, geometry::inPlane(carrier().T_base_sensor(0, now)));
+  }
   void take(motion::RangeScan& scan) {
     scan.scan.frame = "projection";
     scan.head.mount_frame = "active_sensor";
@@ -80,6 +91,7 @@ class Drive {
   }
 
   simulation::Simulation simulation_;
+  bool has_turret_ = false;
   test::ScriptedTransforms transforms_;
   pipeline::ScanFeed feed_;
   pipeline::Estimators estimators_;
