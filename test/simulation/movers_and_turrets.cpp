@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "config_error.h"
+#include "sightline/geometry/isometry.h"
+#include "sightline/motion/sensor_head.h"
 #include "simulation/all_round_view.h"
 
 namespace sightline::simulation {
@@ -124,6 +126,27 @@ TEST(Turret, MovesEveryBeamAtItsOwnTime) {
     const double direction = scan.geometry()->angles()[i] + rate * time;
     EXPECT_NEAR(scan.ranges()[i] * std::sin(direction), 2.0, 1e-5);
   }
+}
+
+TEST(Turret, TurnsAsItIsTold) {
+  Simulation simulation(world::World(), {}, Pose2(), 1);
+  const motion::HeadLimits limits;
+  simulation.carrier().addScanner(allRound(), {}, limits);
+  motion::SensorHead head(limits);
+  const motion::HeadCommand command{motion::HeadCommand::Mode::kPosition, 0.7, 1.0};
+  simulation.carrier().commandTurret(0, command);
+  head.command(command);
+  while (simulation.time() < 1'500'000'000) {
+    const auto outputs = simulation.step();
+    ASSERT_EQ(outputs.turrets.size(), 1U);
+    for (int i = 0; i < 5; ++i) head.step(1e-3);
+    EXPECT_NEAR(outputs.turrets[0].angle, head.angle(), 1e-9);
+    EXPECT_EQ(outputs.turrets[0].stamp, simulation.time());
+    const Eigen::Isometry3d T_base_sensor =
+        simulation.carrier().T_base_sensor(0, simulation.time());
+    EXPECT_NEAR(geometry::inPlane(T_base_sensor).theta(), head.angle(), 1e-9);
+  }
+  EXPECT_NEAR(head.angle(), 0.7, limits.resolution);
 }
 
 }  // namespace

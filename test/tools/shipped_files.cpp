@@ -95,6 +95,7 @@ TEST(ShippedFiles, BearingSensors) {
 TEST(ShippedFiles, Parameters) {
   expectParameters<nodes::LineExtractorNodeConfig>("line_extractor.yaml");
   expectParameters<nodes::GazeNodeConfig>("gaze.yaml");
+  expectParameters<nodes::GazeNodeConfig>("gaze_turret.yaml");
   expectParameters<nodes::RoomTrackerNodeConfig>("room_tracker.yaml");
   expectParameters<nodes::TargetTrackerNodeConfig>("target_tracker.yaml");
 }
@@ -110,6 +111,7 @@ TEST(ShippedFiles, EveryConfigurationHasARoomAbove) {
                                          "replay",
                                          "carriers",
                                          "gaze.yaml",
+                                         "gaze_turret.yaml",
                                          "line_extractor.yaml",
                                          "room_tracker.yaml",
                                          "bearing_sensors",

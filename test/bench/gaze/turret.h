@@ -5,14 +5,27 @@
 
 #include "bench/figures.h"
 #include "bench/gaze/triangulation.h"
-#include "nodes/gaze_config.h"
-#include "sightline/config/config_file.h"
+#include "sightline/config/fields.h"
+#include "sightline/config/node.h"
 #include "sightline/driver/head_joint.h"
 
 namespace sightline::bench {
 
+/// The file of parameters that turret.launch gives to the node gaze.
+struct TurretSettings {
+  std::string mount_frame, joint, range_scan;
+  gaze::GazeConfig gaze;
+
+  void visit(config::FieldVisitor& visitor) {
+    visitor.text("mount_frame", mount_frame, "");
+    visitor.text("joint", joint, "");
+    visitor.text("range_scan", range_scan, "");
+    gaze.visit(visitor);
+  }
+};
+
 inline gaze::GazeConfig turretGaze(gaze::GazeMode mode) {
-  nodes::GazeNodeConfig config;
+  TurretSettings config;
   config::read(config::Node::readFile(SIGHTLINE_SOURCE_DIR "/config/gaze_turret.yaml"), config);
   config.gaze.mode = mode;
   return config.gaze;
