@@ -14,8 +14,8 @@ using geometry::Pose2;
 
 namespace {
 
-// Walls whose share in the error of the pose is kept apart: more than are seen from anywhere.
-constexpr std::size_t kMostWalls = 32;
+// Walls and jambs whose share in the error of the pose is kept apart: more than are seen from anywhere.
+constexpr std::size_t kMostWalls = 48;
 
 bool areSame(const world::WallIndex& a, const world::WallIndex& b) {
   return a.room == b.room && a.wall == b.wall;

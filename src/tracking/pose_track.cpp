@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "sightline/tracking/jamb_finder.h"
+
 namespace sightline::tracking {
 
 namespace {
@@ -56,6 +58,23 @@ void applyWalls(const TrackingContext& context, PoseFilter& filter,
     } else {
       wall.refusal = WallRefusal::kOutsideGate;
     }
+  }
+}
+
+// Jambs are looked for after the walls have told how the robot stands. Each tells one number.
+void applyJambs(const TrackingContext& context, std::size_t room, const Sweep& sweep,
+                PoseTrack::Explanation& explanation) {
+  constexpr double kMostNis = 9.0;
+  if (!context.config.doors.are_landmarks) return;
+  PoseFilter& filter = explanation.filter;
+  for (const SeenJamb& seen : findJambs(context.config, filter, context.map, room, sweep)) {
+    const auto innovation =
+        filter.innovation(seen.line, seen.jamb.lineIn(context.map), LineBySweepError::Zero(),
+                          seen.jamb.errorIn(context.config.doors));
+    const bool is_accepted = innovation.nis <= kMostNis;
+    explanation.jambs.push_back(
+        {seen.jamb.door, seen.jamb.room, innovation.value[0], innovation.nis, is_accepted});
+    if (is_accepted) filter.update(innovation);
   }
 }
 
@@ -123,7 +142,7 @@ PoseTrack::Explanation PoseTrack::explainFrom(const PoseFilter& prior,
                                               const PoseFilter& looked_from,
                                               const TrackingContext& context,
                                               const TrackerInput& input, const Sweep& sweep) const {
-  Explanation explanation{prior, {}, {}, 0.0};
+  Explanation explanation{prior, {}, {}, {}, 0.0};
   const WallFinder finder(context.config);
   for (WallFit& fit :
        finder.find(looked_from, context.map, wallsInSight(context, memory_.room()), sweep)) {
@@ -131,6 +150,7 @@ PoseTrack::Explanation PoseTrack::explainFrom(const PoseFilter& prior,
   }
   explanation.filter.beginSweep(sweep.motion_noise);
   applyWalls(context, explanation.filter, explanation.walls);
+  applyJambs(context, memory_.room(), sweep, explanation);
   judge(context, input, explanation);
   return explanation;
 }
@@ -154,7 +174,7 @@ void PoseTrack::judge(const TrackingContext& context, const TrackerInput& input,
 PoseTrack::Explanation PoseTrack::withoutWalls(const Explanation& taken,
                                                const TrackingContext& context,
                                                const TrackerInput& input) const {
-  Explanation none{filter_, taken.walls, {}, 0.0};
+  Explanation none{filter_, taken.walls, {}, {}, 0.0};
   judge(context, input, none);
   none.log_posterior =
       logLikelihood(none.agreement, *input.scan.geometry(), usual_hits_) + kPriors.unused;
@@ -209,6 +229,7 @@ TrackerUpdate PoseTrack::commit(const TrackingContext& context, const TrackerInp
   update.odometry_scale_sigma = filter_.scaleSigma();
   update.covariance_valid = update.state != TrackerState::kLost;
   update.walls = std::move(explanation.walls);
+  update.jambs = std::move(explanation.jambs);
   if (memory_.changeRoom(context.map, pose().mean.translation())) {
     inflate(context.config.threshold_position_sigma, context.config.threshold_heading_sigma);
   }

@@ -50,6 +50,14 @@ void WallConfig::visit(config::FieldVisitor& visitor) {
                   "largest normalised innovation squared of an update, 2 degrees of freedom"});
 }
 
+void DoorConfig::visit(config::FieldVisitor& visitor) {
+  visitor.flag("are_landmarks", are_landmarks,
+               "method full: the jambs of doors correct the pose along their wall (jensfelt section "
+               "5.3)");
+  visitor.number("position_sigma", position_sigma,
+                 {"m", kShare, "how well the map knows where a jamb stands along its wall"});
+}
+
 void SlipConfig::visit(config::FieldVisitor& visitor) {
   visitor.number(
       "min_quality", min_quality,
@@ -85,6 +93,7 @@ void TrackerConfig::visit(config::FieldVisitor& visitor) {
   visitor.group("gate", gate);
   visitor.group("hough", hough);
   visitor.group("wall", wall);
+  visitor.group("doors", doors);
   visitor.group("slip", slip);
   visitor.group("odometry", odometry);
   visitor.number(

@@ -21,6 +21,7 @@ class PoseTrack {
   struct Explanation {
     PoseFilter filter;
     std::vector<WallUpdate> walls;
+    std::vector<JambUpdate> jambs;
     ScanAgreement agreement;
     double log_posterior = 0.0;  ///< up to a constant: prior, beams and walls
   };

@@ -37,6 +37,7 @@ struct TrackerUpdate {
   bool covariance_valid = false;
   std::string room;
   std::vector<WallUpdate> walls;
+  std::vector<JambUpdate> jambs;
   bool is_outside = false;        ///< whether the pose lies out of its room, past any doorway
   ScanAgreement agreement;        ///< of the scan with what is seen from the pose
   std::vector<RivalPose> rivals;  ///< most probable first

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "bench/rooms/disturbances.h"
 #include "bench/rooms/room_figures.h"
 #include "two_rooms.h"
@@ -95,10 +97,33 @@ class TwoRoomRuns {
                                   {6, -2}, {8, -2}, {8, 1},  {6, 0.5}, {2, 0.5}, {-2, 2}};
     });
   }
+  /// The drive on from half time, the robot having been turned on the spot by an angle [rad].
+  const RecordedDrive& turned(int seed, double angle) {
+    const RecordedDrive& before = recorded("clean", seed, [](DriveSetup&) {});
+    const auto stamp = static_cast<std::int64_t>(kHalfTime * 1e9);
+    return recorded(fmt::format("turned {:.3f}", angle), seed, [&](DriveSetup& setup) {
+      setup.begin = kHalfTime;
+      setup.seconds = test::kTwoRoomsSeconds - kHalfTime;
+      setup.start = before.truth.at(stamp).value() * geometry::Pose2(0.0, 0.0, angle);
+      dropPassed(before, stamp, setup.path);
+    });
+  }
   const QualityCalibration& calibration() const { return calibration_; }
 
  private:
   inline static const geometry::Pose2 kMounting{0.1, 0.0, 0.0};
+
+  // Leaves those waypoints that a drive has still before it.
+  static void dropPassed(const RecordedDrive& drive, std::int64_t stamp, simulation::Path& path) {
+    auto next = path.waypoints_map.begin();
+    for (std::int64_t time = 0; time < stamp; time += 20'000'000) {
+      const auto pose = drive.truth.at(time);
+      const bool is_there =
+          pose && (pose->translation() - *next).norm() < path.tolerance + 0.01;
+      if (is_there) ++next;
+    }
+    path.waypoints_map.erase(path.waypoints_map.begin(), next);
+  }
 
   const RecordedDrive& driveOf(const TwoRoomRun& run, int seed) {
     if (!run.map_is_off && !run.stands) return recorded("clean", seed, [](DriveSetup&) {});
