@@ -103,7 +103,8 @@ TEST_F(RoomTrackerNode, DrawsWallsGatesPointsAndEllipse) {
     EXPECT_EQ(marker.header.frame_id, "map");
   }
   EXPECT_THAT(names,
-              testing::UnorderedElementsAre("walls", "gates", "accepted", "position 95 %", "room"));
+              testing::UnorderedElementsAre("walls", "gates", "accepted", "position 95 %", "rivals",
+                                            "room"));
 }
 
 TEST_F(RoomTrackerNode, Services) {
