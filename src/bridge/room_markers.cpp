@@ -159,8 +159,9 @@ visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& updat
   scene.header.stamp = timeOf(update.stamp);
   scene.header.frame_id = map_frame;
   visualization_msgs::MarkerArray array;
-  array.markers = {walls(scene), gates(scene), acceptedPoints(scene, scan, T_base_sensor),
-                   positionEllipse(scene), rivals(scene), roomName(scene)};
+  array.markers = {
+      walls(scene),           gates(scene),  acceptedPoints(scene, scan, T_base_sensor),
+      positionEllipse(scene), rivals(scene), roomName(scene)};
   return array;
 }
 

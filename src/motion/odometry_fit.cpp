@@ -13,9 +13,9 @@ using geometry::Pose2;
 namespace {
 
 constexpr struct {
-  int rounds = 4;       // of errors and spreads in turn: both have settled after three
-  double step = 1e-5;   // of a numeric derivative
-  double least_length = 5.0;               // [m]
+  int rounds = 4;             // of errors and spreads in turn: both have settled after three
+  double step = 1e-5;         // of a numeric derivative
+  double least_length = 5.0;  // [m]
   double least_turn = 4.0 * geometry::kPi;  // [rad]
   double most_sigma = 0.01;
   // Least spreads, so that no drive on a perfect floor makes later wheels infallible [m, rad].
@@ -125,8 +125,7 @@ void setSpreads(const std::vector<OdometryLeg>& legs, OdometryNoise& noise) {
   noise.distance_sigma = sigmaOf(spreads.along / spreads.length, kFit.least_position);
   noise.lateral_sigma = sigmaOf(spreads.across / spreads.length, kFit.least_position);
   const Eigen::Matrix2d damping = 1e-9 * Eigen::Matrix2d::Identity();
-  const Eigen::Vector2d variances =
-      (spreads.heading_by + damping).ldlt().solve(spreads.heading);
+  const Eigen::Vector2d variances = (spreads.heading_by + damping).ldlt().solve(spreads.heading);
   noise.heading_sigma_per_metre = sigmaOf(variances[0], kFit.least_heading);
   noise.steering_sigma = sigmaOf(variances[1], kFit.least_heading);
 }
@@ -159,11 +158,10 @@ OdometryFit fitOdometry(const std::vector<OdometryLeg>& legs) {
   const bool turns = fit.turn >= kFit.least_turn;
   fit.scale = judged(solution.errors[0], sigmas[0], is_long, unmeasured.scale_mean);
   fit.steering = judged(solution.errors[1], sigmas[1], turns, unmeasured.steering_bias);
-  fit.heading =
-      judged(solution.errors[2], sigmas[2], is_long, unmeasured.heading_bias_per_metre);
+  fit.heading = judged(solution.errors[2], sigmas[2], is_long, unmeasured.heading_bias_per_metre);
   fit.noise = with(fit.noise, {fit.scale.value, fit.steering.value, fit.heading.value});
-  fit.noise.scale_sigma = fit.scale.is_known ? std::max(sigmas[0], kFit.least_position)
-                                             : unmeasured.scale_sigma;
+  fit.noise.scale_sigma =
+      fit.scale.is_known ? std::max(sigmas[0], kFit.least_position) : unmeasured.scale_sigma;
   return fit;
 }
 

@@ -69,7 +69,8 @@ motion::OdometryFit fit(const FitJob& job, const pipeline::EstimatorsConfig& con
 
 std::string said(const char* name, const motion::FittedError& error, const char* unit,
                  const char* advice) {
-  if (error.is_known) return fmt::format("{} {:.5f} +- {:.5f} {}\n", name, error.value, error.sigma, unit);
+  if (error.is_known)
+    return fmt::format("{} {:.5f} +- {:.5f} {}\n", name, error.value, error.sigma, unit);
   return fmt::format("{} is not told by this drive: {}\n", name, advice);
 }
 
@@ -92,10 +93,13 @@ int run(const FitJob& job) {
   std::printf("compared with %s over %zu legs, %.1f m, %.0f degrees of turns\n",
               config.rooms ? "the pose in the rooms" : "odometry from scans", found.legs,
               found.length, geometry::degrees(found.turn));
-  std::fputs(said("scale_mean", found.scale, "true over measured length", "drive 5 m or more").c_str(),
-             stdout);
+  std::fputs(
+      said("scale_mean", found.scale, "true over measured length", "drive 5 m or more").c_str(),
+      stdout);
   std::fputs(said("steering_bias", found.steering, "of the turn",
-                  "turn round twice or more, also to and fro").c_str(), stdout);
+                  "turn round twice or more, also to and fro")
+                 .c_str(),
+             stdout);
   std::fputs(said("heading_bias_per_metre", found.heading, "rad/m", "drive 5 m or more").c_str(),
              stdout);
   std::ofstream file(job.out);
@@ -104,7 +108,7 @@ int run(const FitJob& job) {
   if (!file) throw config::Error(job.out, 0, "", "cannot be written");
   constexpr int kFallsShort = 3;
   return found.scale.is_known && found.steering.is_known && found.heading.is_known ? 0
-                                                                                    : kFallsShort;
+                                                                                   : kFallsShort;
 }
 
 }  // namespace
@@ -115,9 +119,10 @@ int main(int argc, char** argv) {
                          "Finds scale, steering and heading errors of wheel odometry from a drive, "
                          "against the walls of its rooms, or against odometry from its scans.");
   program.positionals("IN.bag", job.in, "the bags to read, as one");
-  program.requiredOption("--config", job.config, "FILE.yaml",
-                         "settings as of offline; with rooms, the wheels are compared with the pose "
-                         "in them");
+  program.requiredOption(
+      "--config", job.config, "FILE.yaml",
+      "settings as of offline; with rooms, the wheels are compared with the pose "
+      "in them");
   program.requiredOption("--out", job.out, "FILE.yaml",
                          "the settings that room_tracker reads; status 3 where the drive does not "
                          "tell them all");

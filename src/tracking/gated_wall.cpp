@@ -59,7 +59,9 @@ void giveEachBeamToOneWall(std::vector<GatedWall>& walls) {
     }
   }
   for (GatedWall& wall : walls) {
-    const auto is_of_another = [&](const BeamPoint* point) { return claims[point->beam].wall != &wall; };
+    const auto is_of_another = [&](const BeamPoint* point) {
+      return claims[point->beam].wall != &wall;
+    };
     wall.points.erase(std::remove_if(wall.points.begin(), wall.points.end(), is_of_another),
                       wall.points.end());
   }

@@ -19,15 +19,15 @@ constexpr struct {
   double span_end = 0.02;
   // Widest gap between the beam on the wall and the one past it, measured along the wall [m].
   double widest_gap = 0.3;
-  double slack = 0.03;        // of a beam on the wall: what walls are not straight by [m]
-  double least_depth = 0.08;  // that a beam passes behind the wall [m]
+  double slack = 0.03;           // of a beam on the wall: what walls are not straight by [m]
+  double least_depth = 0.08;     // that a beam passes behind the wall [m]
   double least_distance = 0.15;  // of the sensor from the wall [m]
   // Standard deviation of a direction that is not known [rad].
   double any_direction = 1.0;
 } kJambs;
 
-double varianceOf(double sigma) {
-  return sigma * sigma;
+double squareOf(double value) {
+  return value * value;
 }
 
 // A beam as seen along a wall.
@@ -65,11 +65,11 @@ class WallFrame {
   PolarLine lineAcross(double along, double sigma) const {
     const Eigen::Vector2d place = start_ + along * direction_;
     const double arm = normal_.dot(place);
-    const double direction = varianceOf(kJambs.any_direction);
+    const double direction = squareOf(kJambs.any_direction);
     PolarLine line;
     line.phi = std::atan2(direction_.y(), direction_.x());
     line.rho = direction_.dot(place);
-    line.covariance << varianceOf(sigma) + arm * arm * direction, arm * direction, arm * direction,
+    line.covariance << squareOf(sigma) + arm * arm * direction, arm * direction, arm * direction,
         direction;
     return geometry::canonical(line);
   }
@@ -151,7 +151,7 @@ PolarLine Jamb::lineIn(const world::RoomMap& map) const {
 WallError Jamb::errorIn(const DoorConfig& config) const {
   WallError error;
   error.wall = {std::numeric_limits<std::size_t>::max() - door, 2 * room + (is_start ? 0 : 1)};
-  error.covariance(0, 0) = varianceOf(config.position_sigma);
+  error.covariance(0, 0) = squareOf(config.position_sigma);
   return error;
 }
 

@@ -14,7 +14,8 @@ using geometry::Pose2;
 
 namespace {
 
-// Walls and jambs whose share in the error of the pose is kept apart: more than are seen from anywhere.
+// Walls and jambs whose share in the error of the pose is kept apart: more than are seen from
+// anywhere.
 constexpr std::size_t kMostWalls = 48;
 
 bool areSame(const world::WallIndex& a, const world::WallIndex& b) {

@@ -51,9 +51,10 @@ void WallConfig::visit(config::FieldVisitor& visitor) {
 }
 
 void DoorConfig::visit(config::FieldVisitor& visitor) {
-  visitor.flag("are_landmarks", are_landmarks,
-               "method full: the jambs of doors correct the pose along their wall (jensfelt section "
-               "5.3)");
+  visitor.flag(
+      "are_landmarks", are_landmarks,
+      "method full: the jambs of doors correct the pose along their wall (jensfelt section "
+      "5.3)");
   visitor.number("position_sigma", position_sigma,
                  {"m", kShare, "how well the map knows where a jamb stands along its wall"});
 }

@@ -9,7 +9,8 @@ namespace {
 
 // Distance of a line from where the map has its wall, at the foot of the perpendicular from the
 // robot, into the room.
-double offsetOf(const WallUpdate& seen, const world::Wall& wall, const geometry::Pose2& T_map_base) {
+double offsetOf(const WallUpdate& seen, const world::Wall& wall,
+                const geometry::Pose2& T_map_base) {
   const geometry::Pose2 T_base_map = T_map_base.inverse();
   const auto expected = geometry::transform(T_base_map, wall.segment.line());
   const auto line = geometry::describedLike(expected, seen.fit->line);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@
 
 #include "rooms/floor_starts.h"
 #include "rooms/freiburg.h"
+#include "rooms/limits.h"
+#include "rooms/node.h"
 #include "rooms/paper_runs.h"
 #include "rooms/scenarios.h"
 #include "sightline/geometry/statistics.h"
@@ -93,15 +96,17 @@ struct Group {
   std::function<void(int)> print;
 };
 
-const std::vector<Group>& groups() {
-  static const std::vector<Group> all{
+std::vector<Group> groups(const std::filesystem::path& folder) {
+  return {
       {"told", kRuns, printTold},
       {"two_rooms", 20, bench::printTwoRooms},
       {"bootstrap", 100, bench::printFloorStarts},
       {"papers", 100, bench::printPaperRuns},
+      {"limits", 100,
+       [=](int seeds) { bench::printLimits(seeds, (folder / "rooms_limits.png").string()); }},
+      {"node", 1, [](int) { bench::printNode(); }},
       {"fr079", 1, [](int) { bench::printFreiburg(); }},
   };
-  return all;
 }
 
 }  // namespace
@@ -120,7 +125,7 @@ int main(int argc, char** argv) {
       wanted.push_back(argument);
     }
   }
-  for (const Group& group : groups()) {
+  for (const Group& group : groups(std::filesystem::path(argv[0]).parent_path())) {
     const bool is_wanted =
         wanted.empty() || std::find(wanted.begin(), wanted.end(), group.name) != wanted.end();
     if (is_wanted) group.print(seeds.value_or(group.seeds));

@@ -15,8 +15,8 @@ class LastPose {
   /// @param path  of the file; empty: nothing is kept
   explicit LastPose(std::string path) : path_(std::move(path)) {}
 
-  /// The pose that was kept; nothing where there is no file. Throws config::Error where it cannot be
-  /// read as one.
+  /// The pose that was kept; nothing where there is no file. Throws config::Error where it cannot
+  /// be read as one.
   std::optional<geometry::Pose2> read() const;
   /// Keeps a pose that is certain, once a second of the stamps. False where the file cannot be
   /// written.

@@ -47,8 +47,8 @@ class RoomOutput {
   EstimatorCount counted() const { return {"rooms", poses_, without_pose_}; }
   /// What became of the scans, and the walls that stand elsewhere than the map says, or do not fit.
   std::vector<std::string> summary() const;
-  /// Writes each wall that was seen, how often it corrected the pose and where it was seen to stand,
-  /// one a line. Throws config::Error with the path where it cannot be written.
+  /// Writes each wall that was seen, how often it corrected the pose and where it was seen to
+  /// stand, one a line. Throws config::Error with the path where it cannot be written.
   void writeWalls(const std::string& path) const;
 
  private:

@@ -15,8 +15,8 @@ namespace sightline::tracking {
 struct WallUse {
   std::string room;
   std::string wall;
-  std::size_t fitted = 0;   ///< scans in which a line was fitted to it
-  std::size_t used = 0;     ///< those in which it corrected the pose
+  std::size_t fitted = 0;    ///< scans in which a line was fitted to it
+  std::size_t used = 0;      ///< those in which it corrected the pose
   double mean_offset = 0.0;  ///< of the lines from where the map has it, into the room [m]
   double std_offset = 0.0;   ///< standard deviation of it over the scans [m]
 

@@ -70,9 +70,8 @@ inline void printPart(const FreiburgPoses& poses, const std::vector<logs::Relati
     return share >= from && share <= to;
   };
   std::vector<logs::Relation> within;
-  std::copy_if(relations.begin(), relations.end(), std::back_inserter(within), [&](const auto& r) {
-    return isWithin(r.first) && isWithin(r.second);
-  });
+  std::copy_if(relations.begin(), relations.end(), std::back_inserter(within),
+               [&](const auto& r) { return isWithin(r.first) && isWithin(r.second); });
   double scans = 0.0;
   double flagged = 0.0;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {

@@ -28,8 +28,8 @@ struct PaperRun {
 };
 
 inline simulation::ScannerProfile plsProfile() {
-  auto profile = simulation::ScannerProfile::readFile(SIGHTLINE_SOURCE_DIR
-                                                      "/config/sensors/sick_pls200.yaml");
+  auto profile =
+      simulation::ScannerProfile::readFile(SIGHTLINE_SOURCE_DIR "/config/sensors/sick_pls200.yaml");
   profile.range_max = 15.0;
   return profile;
 }
@@ -53,7 +53,8 @@ inline RecordedDrive driveOf(const PaperRun& run, std::uint64_t seed) {
 inline std::vector<TrackedScan> trackedBy(const PaperRun& run, const RecordedDrive& drive,
                                           const tracking::TrackerConfig& config) {
   tracking::RoomTracker tracker(
-      config, world::RoomMap::readFile(SIGHTLINE_SOURCE_DIR "/config/rooms/" + run.world + ".yaml"));
+      config,
+      world::RoomMap::readFile(SIGHTLINE_SOURCE_DIR "/config/rooms/" + run.world + ".yaml"));
   tracker.setPose({run.start, Eigen::Vector3d(0.09, 0.09, 0.01).asDiagonal()});
   return Playback(tracker, {}).play(drive);
 }

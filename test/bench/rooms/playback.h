@@ -19,9 +19,9 @@ namespace sightline::bench {
 struct TrackedScan {
   double time = 0.0;  // of the scan [s]
   bool has_pose = false;
-  double position_error = 0.0;  // [m]
-  double heading_error = 0.0;   // [rad]
-  double nees = 0.0;            // of x, y and heading
+  double position_error = 0.0;                      // [m]
+  double heading_error = 0.0;                       // [rad]
+  double nees = 0.0;                                // of x, y and heading
   Eigen::Vector3d error = Eigen::Vector3d::Zero();  // of x, y and heading, in the map [m, rad]
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // that the tracker gives it
   tracking::TrackerState state = tracking::TrackerState::kInitialising;

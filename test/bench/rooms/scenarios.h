@@ -40,9 +40,9 @@ inline void printKidnap(TwoRoomRuns& runs, int seeds) {
   double wrong = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const RecordedDrive& other = runs.eastern(seed);
-    const TwoRoomRun run{"kidnap",
-                         [&](RecordedDrive& drive, auto) { moveUnnoticed(drive, other, kKidnapTime); },
-                         startAt(kStart)};
+    const TwoRoomRun run{
+        "kidnap", [&](RecordedDrive& drive, auto) { moveUnnoticed(drive, other, kKidnapTime); },
+        startAt(kStart)};
     const auto scans = runs.trackedBy(run, seed);
     recovered = std::max(recovered, rightForGoodAfter(scans, kKidnapTime));
     wrong = std::max(wrong, claimedWrong(scans));

@@ -1,0 +1,100 @@
+#include "sightline/tracking/jamb_finder.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "sightline/tracking/room_tracker.h"
+#include "simulated_room.h"
+
+namespace sightline::tracking {
+namespace {
+
+using geometry::Pose2;
+
+// A corridor without ends in sight, and offices beside it.
+const char* const kEndless = R"(
+rooms:
+  corridor: {size: [60.0, 2.3]}
+  a: {size: [3.0, 3.0], pose: [0.0, 2.77, 0.0]}
+  b: {size: [3.0, 3.0], pose: [4.0, 2.77, 0.0]}
+doors:
+  - {between: [corridor, a], at: [0.0, 1.21], width: 0.9}
+  - {between: [corridor, b], at: [4.0, 1.21], width: 0.9}
+)";
+
+geometry::UncertainPose2 about(const Pose2& pose, double along) {
+  return {pose, Eigen::Vector3d(along * along, 1e-4, 1e-5).asDiagonal()};
+}
+
+class JambFinderTest : public ::testing::Test {
+ protected:
+  std::vector<SeenJamb> jambsFrom(const Pose2& truth, const geometry::UncertainPose2& believed) {
+    const TrackerConfig config;
+    const Sweep sweep = readSweep(rooms_.look(truth, 0), {});
+    return findJambs(config, PoseFilter(config.odometry, believed), rooms_.map, 0, sweep);
+  }
+
+  test::SimulatedRooms rooms_{kEndless};
+};
+
+TEST_F(JambFinderTest, SeesJambsWhereTheyAre) {
+  const Pose2 truth(-1.2, 0.1, 0.1);
+  const auto jambs = jambsFrom(truth, about(truth, 0.1));
+  ASSERT_GE(jambs.size(), 1U);
+  for (const SeenJamb& seen : jambs) {
+    const auto expected = geometry::transform(truth.inverse(), seen.jamb.lineIn(rooms_.map));
+    const auto line = geometry::describedLike(expected, seen.line);
+    EXPECT_NEAR(line.rho, expected.rho, 0.05);
+    EXPECT_NEAR(geometry::wrapAngle(line.phi - expected.phi), 0.0, 1e-6);
+  }
+}
+
+TEST_F(JambFinderTest, FindsNoneWhereTheDoorIsShut) {
+  test::SimulatedRooms shut("rooms:\n  corridor: {size: [60.0, 2.3]}\n");
+  const Pose2 truth(-1.2, 0.1, 0.1);
+  const TrackerConfig config;
+  const Sweep sweep = readSweep(shut.look(truth, 0), {});
+  EXPECT_TRUE(
+      findJambs(config, PoseFilter(config.odometry, about(truth, 0.1)), rooms_.map, 0, sweep)
+          .empty());
+}
+
+TEST_F(JambFinderTest, CorrectThePoseAlongACorridorWithoutEnds) {
+  for (const bool are_landmarks : {true, false}) {
+    TrackerConfig config;
+    config.neighbours = false;
+    config.doors.are_landmarks = are_landmarks;
+    RoomTracker tracker(config, rooms_.map);
+    Pose2 truth(-2.0, 0.1, 0.05);
+    tracker.setPose(about(Pose2(0.15, 0.0, 0.0) * truth, 0.2));
+    std::optional<TrackerUpdate> update;
+    for (int i = 0; i < 40; ++i) {
+      update = tracker.update(rooms_.look(truth, 100'000'000 * (i + 1)), truth, {});
+      truth = truth * Pose2(0.03, 0.0, 0.0);
+    }
+    ASSERT_TRUE(update);
+    const double error = update->pose.mean.x() - (truth.x() - 0.03);
+    const double sigma = std::sqrt(update->pose.covariance(0, 0));
+    EXPECT_EQ(sigma < 0.05, are_landmarks) << sigma;
+    EXPECT_LT(std::abs(error), are_landmarks ? 0.03 : 0.3);
+    EXPECT_LT(std::abs(error), 3.0 * sigma);
+  }
+}
+
+// What a thousand looks at one jamb tell is not better than the map knows it.
+TEST_F(JambFinderTest, StandingDoesNotMakeTheMapBetter) {
+  TrackerConfig config;
+  config.neighbours = false;
+  RoomTracker tracker(config, rooms_.map);
+  const Pose2 truth(-1.2, 0.1, 0.05);
+  tracker.setPose(about(truth, 0.2));
+  std::optional<TrackerUpdate> update;
+  for (int i = 0; i < 300; ++i) {
+    update = tracker.update(rooms_.look(truth, 100'000'000 * (i + 1)), truth, {});
+  }
+  EXPECT_GT(std::sqrt(update->pose.covariance(0, 0)), 0.5 * config.doors.position_sigma);
+}
+
+}  // namespace
+}  // namespace sightline::tracking
