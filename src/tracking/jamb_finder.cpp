@@ -170,11 +170,12 @@ std::vector<SeenJamb> findJambs(const TrackerConfig& config, const PoseFilter& f
   std::vector<Edge> edges;
   for (const Jamb& jamb : jambs) {
     const geometry::Segment& segment = segmentOf(map, jamb);
+    const Eigen::Vector2d along = segment.direction();
+    const double variance = along.dot(pose.covariance.topLeftCorner<2, 2>() * along);
+    if (variance < squareOf(config.doors.asked_from)) continue;
     const WallFrame wall(segment, T_base_map);
     if (&segment != last) edges = edgesOf(wall, sweep);
     last = &segment;
-    const Eigen::Vector2d along = segment.direction();
-    const double variance = along.dot(pose.covariance.topLeftCorner<2, 2>() * along);
     const double sigma = std::hypot(std::sqrt(variance), config.doors.position_sigma);
     const auto edge = edgeFor(jamb, edges, config.gate.sigmas, sigma);
     if (edge) seen.push_back({jamb, wall.lineAcross(edge->along, edge->sigma)});

@@ -57,6 +57,11 @@ void DoorConfig::visit(config::FieldVisitor& visitor) {
       "5.3)");
   visitor.number("position_sigma", position_sigma,
                  {"m", kShare, "how well the map knows where a jamb stands along its wall"});
+  visitor.number("asked_from", asked_from,
+                 {"m",
+                  {0.0, 10.0},
+                  "position uncertainty along a wall from which on its jambs are asked: what walls "
+                  "tell is better, as leaves of doors stand half open"});
 }
 
 void SlipConfig::visit(config::FieldVisitor& visitor) {

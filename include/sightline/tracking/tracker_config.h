@@ -41,6 +41,8 @@ struct WallConfig {
 struct DoorConfig {
   bool are_landmarks = true;
   double position_sigma = 0.03;  ///< of a jamb of the map along its wall [m]
+  /// Uncertainty along a wall that its jambs are asked from on [m]: what walls tell is better.
+  double asked_from = 0.05;
 
   void visit(config::FieldVisitor& visitor);
 };
