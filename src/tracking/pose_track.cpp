@@ -2,81 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
-#include "sightline/tracking/jamb_finder.h"
+#include "sightline/tracking/wall_finder.h"
 
 namespace sightline::tracking {
 
 namespace {
-
-// Walls of a room, and of those behind its doors.
-std::vector<world::WallIndex> wallsInSight(const TrackingContext& context, std::size_t room) {
-  std::vector<std::size_t> rooms{room};
-  for (const world::Door& door : context.map.doors()) {
-    for (const std::size_t side : {0U, 1U}) {
-      const std::size_t other = door.rooms[side];
-      const bool leads_there = context.config.neighbours && door.rooms[1 - side] == room;
-      if (leads_there && std::find(rooms.begin(), rooms.end(), other) == rooms.end()) {
-        rooms.push_back(other);
-      }
-    }
-  }
-  std::vector<world::WallIndex> walls;
-  for (const std::size_t seen : rooms) {
-    for (std::size_t wall = 0; wall < context.map.rooms()[seen].walls.size(); ++wall) {
-      walls.push_back({seen, wall});
-    }
-  }
-  return walls;
-}
-
-// The best-seen wall first: it leaves the others the least room for error.
-std::vector<std::size_t> byBeams(const std::vector<WallUpdate>& walls) {
-  std::vector<std::size_t> order(walls.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return walls[a].acceptedBeams() > walls[b].acceptedBeams();
-  });
-  return order;
-}
-
-void applyWalls(const TrackingContext& context, PoseFilter& filter,
-                std::vector<WallUpdate>& walls) {
-  for (const std::size_t i : byBeams(walls)) {
-    WallUpdate& wall = walls[i];
-    if (!wall.fit) continue;
-    const world::WallIndex index{wall.room, wall.wall};
-    const geometry::Segment& expected = context.map.wall(index).segment;
-    const auto innovation =
-        filter.innovation(wall.fit->line, expected.line(), wall.fit->motion_jacobian,
-                          WallError(index, expected, context.config.wall));
-    wall.innovation = WallInnovation{innovation.value, innovation.nis};
-    if (innovation.nis <= context.config.wall.max_nis) {
-      filter.update(innovation);
-    } else {
-      wall.refusal = WallRefusal::kOutsideGate;
-    }
-  }
-}
-
-// Jambs are looked for after the walls have told how the robot stands. Each tells one number.
-void applyJambs(const TrackingContext& context, std::size_t room, const Sweep& sweep,
-                PoseTrack::Explanation& explanation) {
-  constexpr double kMostNis = 9.0;
-  if (!context.config.doors.are_landmarks) return;
-  PoseFilter& filter = explanation.filter;
-  for (const SeenJamb& seen : findJambs(context.config, filter, context.map, room, sweep)) {
-    const auto innovation =
-        filter.innovation(seen.line, seen.jamb.lineIn(context.map), LineBySweepError::Zero(),
-                          seen.jamb.errorIn(context.config.doors));
-    const bool is_accepted = innovation.nis <= kMostNis;
-    explanation.jambs.push_back(
-        {seen.jamb.door, seen.jamb.room, innovation.value[0], innovation.nis, is_accepted});
-    if (is_accepted) filter.update(innovation);
-  }
-}
 
 // Log odds of what explains a scan beside the prediction.
 constexpr struct {
@@ -112,47 +44,15 @@ constexpr struct {
   double proof = 20.0;  // and wheels, not to be believed for a while
 } kPriors;
 
-double supportOf(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
-  return static_cast<double>(agreement.on_wall) * weightOf(agreement, geometry);
-}
-
-double unusedShare(const PoseTrack::Explanation& explanation) {
-  double used = 0.0;
-  for (const WallUpdate& wall : explanation.walls) {
-    if (wall.accepted()) used += static_cast<double>(wall.acceptedBeams());
-  }
-  const auto met = static_cast<double>(explanation.agreement.on_wall);
-  return met > 0.0 ? std::max(0.0, 1.0 - used / met) : 0.0;
-}
-
-// Walls well seen and yet refused: gates must not lock out for ever what contradicts a wrong
-// prediction.
-bool areWallsRefused(const std::vector<WallUpdate>& walls) {
-  std::size_t accepted = 0;
-  std::size_t refused = 0;
-  for (const WallUpdate& wall : walls) {
-    (wall.accepted() ? accepted : refused) += wall.acceptedBeams();
-  }
-  return refused > accepted;
-}
-
-double nisOf(const std::vector<WallUpdate>& walls) {
-  double nis = 0.0;
-  for (const WallUpdate& wall : walls) {
-    if (wall.accepted() && wall.innovation) nis += wall.innovation->nis;
-  }
-  return nis;
-}
-
-void keepBetter(PoseTrack::Explanation& best, PoseTrack::Explanation other, double log_prior,
-                PoseTrack::Explanation::Motion motion) {
+void keepBetter(Explanation& best, Explanation other, double log_prior,
+                Explanation::Motion motion) {
   other.log_posterior += log_prior;
   other.motion = motion;
   if (other.log_posterior > best.log_posterior) best = std::move(other);
 }
 
 // Reports the gates that the prediction leaves open.
-void showGatesOf(const PoseTrack::Explanation& predicted, PoseTrack::Explanation& explanation) {
+void showGatesOf(const Explanation& predicted, Explanation& explanation) {
   for (std::size_t i = 0; i < predicted.walls.size(); ++i) {
     explanation.walls[i].gate = predicted.walls[i].gate;
     explanation.walls[i].beams_in_gate = predicted.walls[i].beams_in_gate;
@@ -180,10 +80,9 @@ void PoseTrack::predict(const TrackingContext& context, const TrackerInput& inpu
   filter_.predict(context.config.odometry, *step);
 }
 
-PoseTrack::Explanation PoseTrack::explainFrom(const PoseFilter& prior,
-                                              const PoseFilter& looked_from,
-                                              const TrackingContext& context,
-                                              const TrackerInput& input, const Sweep& sweep) const {
+Explanation PoseTrack::explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
+                                   const TrackingContext& context, const TrackerInput& input,
+                                   const Sweep& sweep) const {
   Explanation explanation{prior, {}, {}, {}};
   const WallFinder finder(context.config);
   for (WallFit& fit :
@@ -217,9 +116,8 @@ void PoseTrack::judge(const TrackingContext& context, const TrackerInput& input,
 }
 
 // The walls that were found were none: the pose stays as predicted.
-PoseTrack::Explanation PoseTrack::withoutWalls(const Explanation& taken,
-                                               const TrackingContext& context,
-                                               const TrackerInput& input) const {
+Explanation PoseTrack::withoutWalls(const Explanation& taken, const TrackingContext& context,
+                                    const TrackerInput& input) const {
   Explanation none{filter_, taken.walls, {}, {}};
   judge(context, input, none);
   none.log_posterior =
@@ -261,8 +159,7 @@ bool PoseTrack::isMotionDoubted(const Explanation& explanation) const {
   return haveStopped() && nisOf(explanation.walls) > kPriors.most_nis;
 }
 
-PoseTrack::Explanation PoseTrack::explain(const TrackingContext& context,
-                                          const TrackerInput& input) const {
+Explanation PoseTrack::explain(const TrackingContext& context, const TrackerInput& input) const {
   using Motion = Explanation::Motion;
   const Sweep sweep = readSweep(input.scan, input.T_base_sensor);
   const auto lookFrom = [&](const PoseFilter& prior, const PoseFilter& looked_from) {

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
+#include "sightline/tracking/explanation.h"
 #include "sightline/tracking/pose_filter.h"
 #include "sightline/tracking/tracking_context.h"
-#include "sightline/tracking/wall_finder.h"
 
 namespace sightline::tracking {
 
@@ -17,16 +16,6 @@ class PoseTrack {
   PoseTrack(const TrackingContext& context, const geometry::UncertainPose2& start,
             std::size_t room);
 
-  /// One way of explaining a scan: the pose before it, corrected by the walls found from there.
-  struct Explanation {
-    PoseFilter filter;
-    std::vector<WallUpdate> walls;
-    std::vector<JambUpdate> jambs;
-    ScanAgreement agreement;
-    double log_posterior = 0.0;  ///< up to a constant: prior, beams and walls
-    /// What the robot is taken to have done since the last scan.
-    enum class Motion { kWheels, kCoasting, kSlip, kUnknown } motion = Motion::kWheels;
-  };
   /// Moves with the odometry to the stamp of a scan.
   void predict(const TrackingContext& context, const TrackerInput& input);
   /// The scan as predicted; where that does not agree, the best of that, of the motion before
