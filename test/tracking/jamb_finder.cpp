@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sightline/tracking/room_tracker.h"
+#include "sightline/tracking/pose_track.h"
 #include "simulated_room.h"
 
 namespace sightline::tracking {
@@ -60,40 +60,47 @@ TEST_F(JambFinderTest, FindsNoneWhereTheDoorIsShut) {
           .empty());
 }
 
-TEST_F(JambFinderTest, CorrectThePoseAlongACorridorWithoutEnds) {
-  for (const bool are_landmarks : {true, false}) {
-    TrackerConfig config;
-    config.neighbours = false;
-    config.doors.are_landmarks = are_landmarks;
-    RoomTracker tracker(config, rooms_.map);
-    Pose2 truth(-2.0, 0.1, 0.05);
-    tracker.setPose(about(Pose2(0.15, 0.0, 0.0) * truth, 0.2));
-    std::optional<TrackerUpdate> update;
-    for (int i = 0; i < 40; ++i) {
-      update = tracker.update(rooms_.look(truth, 100'000'000 * (i + 1)), truth, {});
-      truth = truth * Pose2(0.03, 0.0, 0.0);
+// A track without rivals, from one place to another, told of its motion exactly.
+class JambTrackTest : public JambFinderTest {
+ protected:
+  geometry::UncertainPose2 trackedFrom(Pose2 truth, const geometry::UncertainPose2& believed,
+                                       const Pose2& step, int scans) {
+    const TrackingContext context{config_, rooms_.map};
+    PoseTrack track(context, believed, 0);
+    for (int i = 0; i < scans; ++i) {
+      const scan::Scan scan = rooms_.look(truth, 100'000'000 * (i + 1));
+      track.update(context, {scan, truth, {}});
+      truth_ = truth;
+      truth = truth * step;
     }
-    ASSERT_TRUE(update);
-    const double error = update->pose.mean.x() - (truth.x() - 0.03);
-    const double sigma = std::sqrt(update->pose.covariance(0, 0));
-    EXPECT_EQ(sigma < 0.05, are_landmarks) << sigma;
-    EXPECT_LT(std::abs(error), are_landmarks ? 0.03 : 0.3);
+    return track.pose();
+  }
+
+  TrackerConfig config_;
+  Pose2 truth_;  // at the last scan
+};
+
+TEST_F(JambTrackTest, CorrectThePoseAlongACorridorWithoutEnds) {
+  config_.neighbours = false;
+  const Pose2 start(-2.0, 0.1, 0.05);
+  for (const bool are_landmarks : {true, false}) {
+    config_.doors.are_landmarks = are_landmarks;
+    const auto pose =
+        trackedFrom(start, about(Pose2(0.15, 0.0, 0.0) * start, 0.2), {0.03, 0.0, 0.0}, 40);
+    const double error = pose.mean.x() - truth_.x();
+    const double sigma = std::sqrt(pose.covariance(0, 0));
+    EXPECT_EQ(sigma < 0.1, are_landmarks) << sigma;
+    EXPECT_LT(std::abs(error), are_landmarks ? 0.05 : 0.3);
     EXPECT_LT(std::abs(error), 3.0 * sigma);
   }
 }
 
-// What a thousand looks at one jamb tell is not better than the map knows it.
-TEST_F(JambFinderTest, StandingDoesNotMakeTheMapBetter) {
-  TrackerConfig config;
-  config.neighbours = false;
-  RoomTracker tracker(config, rooms_.map);
+TEST_F(JambTrackTest, StandingDoesNotMakeTheMapBetter) {
+  config_.neighbours = false;
+  config_.doors.asked_from = 0.0;
   const Pose2 truth(-1.2, 0.1, 0.05);
-  tracker.setPose(about(truth, 0.2));
-  std::optional<TrackerUpdate> update;
-  for (int i = 0; i < 300; ++i) {
-    update = tracker.update(rooms_.look(truth, 100'000'000 * (i + 1)), truth, {});
-  }
-  EXPECT_GT(std::sqrt(update->pose.covariance(0, 0)), 0.5 * config.doors.position_sigma);
+  const auto pose = trackedFrom(truth, about(truth, 0.2), {}, 100);
+  EXPECT_GT(std::sqrt(pose.covariance(0, 0)), 0.5 * config_.doors.position_sigma);
 }
 
 }  // namespace

@@ -34,7 +34,9 @@ TEST(WallReport, NamesTheWallThatIsOff) {
     EXPECT_LE(use.used, use.fitted);
     if (use.wall == "north") north = use.mean_offset;
     if (use.wall == "south") south = use.mean_offset;
-    if (use.wall == "east") EXPECT_NEAR(use.mean_offset, 0.0, 0.004);
+    if (use.wall == "east") {
+      EXPECT_NEAR(use.mean_offset, 0.0, 0.004);
+    }
   }
   // Both walls together say that the room is narrower; whose fault it is, they cannot say.
   EXPECT_NEAR(north + south, 0.025, 0.006);
