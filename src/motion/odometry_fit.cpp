@@ -121,9 +121,10 @@ double sigmaOf(double variance, double least) {
 void setSpreads(const std::vector<OdometryLeg>& legs, OdometryNoise& noise) {
   Spreads spreads;
   for (const OdometryLeg& leg : legs) spreads.add(leg, noise);
-  if (spreads.length <= 0.0) return;
-  noise.distance_sigma = sigmaOf(spreads.along / spreads.length, kFit.least_position);
-  noise.lateral_sigma = sigmaOf(spreads.across / spreads.length, kFit.least_position);
+  if (spreads.length > 0.0) {
+    noise.distance_sigma = sigmaOf(spreads.along / spreads.length, kFit.least_position);
+    noise.lateral_sigma = sigmaOf(spreads.across / spreads.length, kFit.least_position);
+  }
   const Eigen::Matrix2d damping = 1e-9 * Eigen::Matrix2d::Identity();
   const Eigen::Vector2d variances = (spreads.heading_by + damping).ldlt().solve(spreads.heading);
   noise.heading_sigma_per_metre = sigmaOf(variances[0], kFit.least_heading);

@@ -1,6 +1,7 @@
 #include "sightline/tracking/jamb_finder.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -68,7 +69,7 @@ class JambTrackTest : public JambFinderTest {
     const TrackingContext context{config_, rooms_.map};
     PoseTrack track(context, believed, 0);
     for (int i = 0; i < scans; ++i) {
-      const scan::Scan scan = rooms_.look(truth, 100'000'000 * (i + 1));
+      const scan::Scan scan = rooms_.look(truth, std::int64_t{100'000'000} * (i + 1));
       track.update(context, {scan, truth, {}});
       truth_ = truth;
       truth = truth * step;

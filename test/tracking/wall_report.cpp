@@ -1,5 +1,7 @@
 #include "sightline/tracking/wall_report.h"
 
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include "sightline/tracking/room_tracker.h"
@@ -22,7 +24,8 @@ TEST(WallReport, NamesTheWallThatIsOff) {
   tracker.setPose({truth, Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal()});
   WallReport report;
   for (int i = 0; i < 100; ++i) {
-    const auto update = tracker.update(real.look(truth, 100'000'000 * (i + 1)), truth, {});
+    const auto update =
+        tracker.update(real.look(truth, std::int64_t{100'000'000} * (i + 1)), truth, {});
     if (update) report.add(*update, drawn);
     truth = truth * Pose2(0.02, 0.0, 0.07);
   }
