@@ -6,7 +6,7 @@ namespace sightline::bridge {
 
 RecordedEstimates::RecordedEstimates(const pipeline::EstimatorsConfig& config,
                                      const pipeline::EstimatorSet& set, const std::string& folder)
-    : set_(set), estimators_(config, set) {
+    : set_(set), folder_(folder), estimators_(config, set) {
   const std::filesystem::path path(folder);
   bag_.open((path / "out.bag").string(), rosbag::bagmode::Write);
   if (set.lines) lines_.emplace(output_, config.input);
@@ -43,6 +43,7 @@ void RecordedEstimates::copy(const rosbag::MessageInstance& message) {
 
 void RecordedEstimates::close() {
   if (rooms_trajectory_) rooms_trajectory_->close();
+  if (rooms_) rooms_->writeWalls((std::filesystem::path(folder_) / "walls.csv").string());
   if (odometry_trajectory_) odometry_trajectory_->close();
   bag_.close();
 }

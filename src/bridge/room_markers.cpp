@@ -117,6 +117,23 @@ Marker positionEllipse(const Scene& scene) {
   return marker;
 }
 
+// Other poses that are held possible, the fainter the less probable: their place and heading.
+Marker rivals(const Scene& scene) {
+  constexpr double kLength = 0.5;  // [m]
+  Marker marker = scene.marker("rivals", Marker::LINE_LIST, 0.05);
+  for (const tracking::RivalPose& rival : scene.update.rivals) {
+    const Eigen::Vector2d tip = rival.pose.mean * Eigen::Vector2d(kLength, 0.0);
+    for (const double side : {-0.4, 0.0, 0.4}) {
+      const Eigen::Vector2d tail(side == 0.0 ? 0.0 : 0.6 * kLength, side * kLength);
+      marker.points.push_back(toPoint(rival.pose.mean * tail, 0.06));
+      marker.points.push_back(toPoint(tip, 0.06));
+    }
+    const auto opacity = static_cast<float>(0.2 + 0.6 * rival.probability);
+    marker.colors.insert(marker.colors.end(), 6, colour(1.0F, 0.5F, 0.9F, opacity));
+  }
+  return marker;
+}
+
 Marker roomName(const Scene& scene) {
   const Eigen::Vector2d above = scene.update.pose.mean.translation() + Eigen::Vector2d(0.0, 0.6);
   return textAt(above, scene.update.room, scene.header);
@@ -142,8 +159,9 @@ visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& updat
   scene.header.stamp = timeOf(update.stamp);
   scene.header.frame_id = map_frame;
   visualization_msgs::MarkerArray array;
-  array.markers = {walls(scene), gates(scene), acceptedPoints(scene, scan, T_base_sensor),
-                   positionEllipse(scene), roomName(scene)};
+  array.markers = {
+      walls(scene),           gates(scene),  acceptedPoints(scene, scan, T_base_sensor),
+      positionEllipse(scene), rivals(scene), roomName(scene)};
   return array;
 }
 

@@ -33,6 +33,15 @@ WallStatus toWallStatus(const tracking::WallUpdate& wall, const world::RoomMap& 
   return message;
 }
 
+RivalPose toRivalMessage(const tracking::RivalPose& rival, const world::RoomMap& map) {
+  RivalPose message;
+  message.pose.pose = toPose(rival.pose.mean);
+  message.pose.covariance = toCovariance6(rival.pose.covariance);
+  message.room = map.rooms()[rival.room].name;
+  message.probability = rival.probability;
+  return message;
+}
+
 }  // namespace
 
 TrackerStatus toStatusMessage(const tracking::TrackerUpdate& update, const world::RoomMap& map,
@@ -45,6 +54,7 @@ TrackerStatus toStatusMessage(const tracking::TrackerUpdate& update, const world
   message.room = update.room;
   message.covariance_valid = update.covariance_valid;
   for (const auto& wall : update.walls) message.walls.push_back(toWallStatus(wall, map));
+  for (const auto& rival : update.rivals) message.rivals.push_back(toRivalMessage(rival, map));
   return message;
 }
 

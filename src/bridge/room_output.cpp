@@ -1,5 +1,7 @@
 #include "sightline/bridge/room_output.h"
 
+#include <cmath>
+#include <fstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "sightline/bridge/room_markers.h"
 #include "sightline/bridge/room_messages.h"
 #include "sightline/bridge/time.h"
+#include "sightline/config/error.h"
 #include "sightline/world/occupancy.h"
 
 namespace sightline::bridge {
@@ -32,6 +35,7 @@ RoomOutput::RoomOutput(Output& output, const RoomOutputConfig& config,
       frames_(frames),
       map_(map),
       map_resolution_(rooms.map_resolution),
+      wall_sigma_(rooms.tracker.wall.position_sigma),
       pose_(output.open<geometry_msgs::PoseWithCovarianceStamped>("pose")),
       status_port_(output.open<TrackerStatus>("tracker_status")),
       transforms_(output.openTransforms()),
@@ -77,6 +81,7 @@ std::string RoomOutput::write(const pipeline::Estimates& estimates, bool has_pos
 void RoomOutput::writePose(const pipeline::Estimates& estimates) {
   const tracking::TrackerUpdate& update = *estimates.rooms;
   ++poses_;
+  wall_report_.add(update, map_);
   odometry_scale_ = update.odometry_scale;
   if (update.state == tracking::TrackerState::kLost) ++lost_;
   pose_.write(toPoseMessage(update, frames_.map));
@@ -114,6 +119,7 @@ void RoomOutput::resend(const ros::Time& now) {
 
 void RoomOutput::renewMap() {
   map_is_written_ = false;
+  wall_report_.clear();
   writeMap();
 }
 
@@ -138,7 +144,35 @@ std::vector<std::string> RoomOutput::summary() const {
   for (const auto& [reason, count] : without_pose_) {
     lines.push_back(fmt::format("rooms: {} scans left out: {}", count, reason));
   }
+  for (std::string& line : suspectWalls()) lines.push_back(std::move(line));
   return lines;
+}
+
+// Walls that were seen often and stand elsewhere by more than three times what the map is believed
+// to be off by.
+std::vector<std::string> RoomOutput::suspectWalls() const {
+  constexpr std::size_t kOften = 20;
+  std::vector<std::string> lines;
+  for (const tracking::WallUse& use : wall_report_.uses(map_)) {
+    if (use.fitted < kOften || !use.isSuspect(3.0 * wall_sigma_)) continue;
+    lines.push_back(fmt::format(
+        "rooms: wall {} of {} is {:.0f} mm {} than the map says, and corrected the pose in {} of "
+        "{} scans that saw it",
+        use.wall, use.room, 1e3 * std::abs(use.mean_offset),
+        use.mean_offset > 0.0 ? "further in" : "further out", use.used, use.fitted));
+  }
+  return lines;
+}
+
+void RoomOutput::writeWalls(const std::string& path) const {
+  std::ofstream file(path);
+  file << "room,wall,scans,used,offset_m,offset_std_m\n";
+  for (const tracking::WallUse& use : wall_report_.uses(map_)) {
+    file << fmt::format("{},{},{},{},{:.4f},{:.4f}\n", use.room, use.wall, use.fitted, use.used,
+                        use.mean_offset, use.std_offset);
+  }
+  file.close();
+  if (!file) throw config::Error(path, 0, "", "cannot be written");
 }
 
 }  // namespace sightline::bridge

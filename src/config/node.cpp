@@ -249,6 +249,10 @@ std::vector<double> Node::numbers(std::size_t count, Range range) const {
 geometry::Pose2 Node::pose(Range range) const {
   if (!isList() || items().size() != 3) fail("expected a pose: [x, y, yaw] in m, m, rad");
   const auto values = numbers(range);
+  constexpr double kTurn = 6.2832;  // [rad]
+  if (std::abs(values[2]) > kTurn) {
+    fail(fmt::format("a yaw of {} rad is more than a whole turn: is it in degrees?", values[2]));
+  }
   return {values[0], values[1], values[2]};
 }
 

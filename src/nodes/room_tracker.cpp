@@ -4,6 +4,7 @@
 
 #include "nodes/room_controls.h"
 #include "nodes/room_tracker_config.h"
+#include "sightline/bridge/last_pose.h"
 #include "sightline/bridge/live_feed.h"
 #include "sightline/bridge/node_diagnostics.h"
 #include "sightline/bridge/parameters.h"
@@ -26,6 +27,9 @@ RoomTrackerNodeConfig readRoomTrackerConfig(const ros::NodeHandle& private_node)
     throw config::Error(private_node.getNamespace(), 0, "map", "has to name a rooms file");
   }
   config.topics.frames = config.topics.frames.withoutSlashes();
+  if (!config.rooms.initial_pose) {
+    config.rooms.initial_pose = bridge::LastPose(config.last_pose).read();
+  }
   return config;
 }
 
@@ -34,6 +38,7 @@ class RoomTrackerNode {
   RoomTrackerNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : config_(readRoomTrackerConfig(private_node)),
         estimators_(estimatorsOf(config_), kRooms),
+        last_pose_(config_.last_pose),
         diagnostics_(node, private_node),
         output_(node),
         rooms_(output_, config_.output, config_.topics.frames, config_.rooms,
@@ -56,12 +61,16 @@ class RoomTrackerNode {
     const auto estimates = estimators_.take(std::move(located));
     const bool has_pose = estimators_.rooms()->hasPose();
     const std::string reason = rooms_.write(estimates, has_pose);
+    if (estimates.rooms && !last_pose_.keep(*estimates.rooms)) {
+      ROS_WARN_THROTTLE(60.0, "the pose cannot be kept in %s", config_.last_pose.c_str());
+    }
     if (reason.empty() || !has_pose) return;
     throw bridge::UnusedScan(reason, estimates.located.before_odometry);
   }
 
   RoomTrackerNodeConfig config_;
   pipeline::Estimators estimators_;
+  bridge::LastPose last_pose_;
   bridge::NodeDiagnostics diagnostics_;
   bridge::Output output_;
   bridge::RoomOutput rooms_;

@@ -1,6 +1,9 @@
 #include "sightline/pipeline/estimators.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "sightline/motion/sweep.h"
 
@@ -17,6 +20,18 @@ constexpr std::size_t kOdometryScanner = 0;
 constexpr double kBridgedPosition = 0.1;
 constexpr double kBridgedHeading = 0.1;
 
+// A start that cannot be: people write degrees, and mix up maps.
+void checkStart(const RoomsConfig& rooms, const world::RoomMap& map) {
+  const geometry::Pose2 start = *rooms.initial_pose;
+  const world::Room& nearest = map.rooms()[map.nearestRoom(start.translation())];
+  const double outside = nearest.distance(start.translation());
+  if (outside <= std::max(1.0, 3.0 * rooms.initial_sigma[0])) return;
+  throw config::Error(rooms.map, 0, "initial_pose",
+                      fmt::format("({:.2f}, {:.2f}) lies {:.1f} m outside every room; the nearest "
+                                  "is '{}'",
+                                  start.x(), start.y(), outside, nearest.name));
+}
+
 void flagBreak(tracking::TrackerUpdate& update) {
   if (update.state == tracking::TrackerState::kTracking) {
     update.state = tracking::TrackerState::kDegraded;
@@ -31,7 +46,10 @@ Estimators::Estimators(const EstimatorsConfig& config, const EstimatorSet& set)
   if (set.rooms) {
     if (!config_.rooms) throw config::Error("", 0, "rooms", "the settings do not say which");
     rooms_.emplace(config_.rooms->tracker, world::RoomMap::readFile(config_.rooms->map));
-    if (config_.rooms->initial_pose) rooms_->setPose(config_.rooms->start());
+    if (config_.rooms->initial_pose) {
+      checkStart(*config_.rooms, rooms_->map());
+      rooms_->setPose(config_.rooms->start());
+    }
   }
   // A scanner that leans is only told from walls by where it has been.
   if (set.odometry || config_.input.leans) {

@@ -68,7 +68,10 @@ Eigen::Vector2d Scan::point(std::size_t beam) const {
 }
 
 Eigen::Matrix2d Scan::covariance(std::size_t beam) const {
-  const Eigen::Vector2d along = direction(beam);
+  return covariance(beam, direction(beam));
+}
+
+Eigen::Matrix2d Scan::covariance(std::size_t beam, const Eigen::Vector2d& along) const {
   const Eigen::Vector2d across(-along.y(), along.x());
   const double across_variance =
       ranges_[beam] * ranges_[beam] * angular_variance + transverse_variance;

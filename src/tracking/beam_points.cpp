@@ -35,8 +35,10 @@ void readMotionNoise(const scan::Scan& scan, const Pose2& T_base_sensor, Sweep& 
 
 Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor) {
   const Eigen::Matrix2d rotation = T_base_sensor.rotation();
+  const Eigen::Vector2d mounting = T_base_sensor.translation();
   const auto& motion = scan.sensorMotion();
   const double duration = scan.duration();
+  const bool jitters = scan.motion_noise.jitter != 0.0;
   Sweep sweep;
   readMotionNoise(scan, T_base_sensor, sweep);
   sweep.points.reserve(scan.beams());
@@ -44,10 +46,14 @@ Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor) {
     if (!scan.isValid(i)) continue;
     BeamPoint point;
     point.beam = i;
-    const Eigen::Vector2d position = scan.point(i);
-    const Eigen::Matrix2d covariance = scan.covariance(i) + jitterAt(position, scan.motion_noise);
-    point.position = T_base_sensor * position;
-    point.origin = T_base_sensor * (motion.empty() ? Pose2() : motion[i]).translation();
+    const Eigen::Vector2d direction = scan.direction(i);
+    const Eigen::Vector2d origin =
+        motion.empty() ? Eigen::Vector2d(0.0, 0.0) : motion[i].translation();
+    const Eigen::Vector2d position = scan.ranges()[i] * direction + origin;
+    Eigen::Matrix2d covariance = scan.covariance(i, direction);
+    if (jitters) covariance += jitterAt(position, scan.motion_noise);
+    point.position = rotation * position + mounting;
+    point.origin = rotation * origin + mounting;
     point.range = scan.ranges()[i];
     point.covariance = rotation * covariance * rotation.transpose();
     point.sweep_ratio = duration > 0.0 ? scan.geometry()->timeOffsets()[i] / duration : 0.0;

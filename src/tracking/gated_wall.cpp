@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 namespace sightline::tracking {
 
@@ -45,16 +44,24 @@ void giveEachBeamToOneWall(std::vector<GatedWall>& walls) {
     const GatedWall* wall = nullptr;
     double distance = std::numeric_limits<double>::infinity();
   };
-  std::unordered_map<const BeamPoint*, Claim> claims;
+  std::size_t beams = 0;
   for (const GatedWall& wall : walls) {
+    for (const BeamPoint* point : wall.points) beams = std::max(beams, point->beam + 1);
+  }
+  std::vector<Claim> claims(beams);
+  for (const GatedWall& wall : walls) {
+    const geometry::PolarLine& predicted = wall.gate.predicted();
+    const Eigen::Vector2d normal = predicted.normal();
     for (const BeamPoint* point : wall.points) {
-      const double distance = std::abs(wall.gate.predicted().signedDistance(point->position));
-      Claim& claim = claims[point];
+      const double distance = std::abs(normal.dot(point->position) - predicted.rho);
+      Claim& claim = claims[point->beam];
       if (distance < claim.distance) claim = {&wall, distance};
     }
   }
   for (GatedWall& wall : walls) {
-    const auto is_of_another = [&](const BeamPoint* point) { return claims[point].wall != &wall; };
+    const auto is_of_another = [&](const BeamPoint* point) {
+      return claims[point->beam].wall != &wall;
+    };
     wall.points.erase(std::remove_if(wall.points.begin(), wall.points.end(), is_of_another),
                       wall.points.end());
   }
@@ -71,7 +78,7 @@ std::vector<const BeamPoint*> nearLine(const std::vector<const BeamPoint*>& poin
   const Eigen::Vector2d normal = line.normal();
   for (const BeamPoint* point : points) {
     const double reach = sigmas * pointSigma(*point, normal) + slack;
-    if (std::abs(line.signedDistance(point->position)) <= reach) near.push_back(point);
+    if (std::abs(normal.dot(point->position) - line.rho) <= reach) near.push_back(point);
   }
   return near;
 }

@@ -16,35 +16,51 @@ constexpr struct {
   double most_for = 4.0;
   double most_against = -14.0;
   double outside = -1.0;  // of a view from outside every room
-  // Of a view in which less than this share of the usual beams meet walls; what is usual follows
-  // slowly.
+  // Of the first view in which far fewer beams meet walls than usual: less than this share of the
+  // usual ones, and so many fewer that somewhere else is as likely as the robot having been carried
+  // there. What is usual follows slowly, more slowly still while it is not.
   double surprising = -5.0;
-  double surprise = 0.6;
+  double surprise = 0.5;
+  double carried = 9.2;  // log odds
+  double statement =
+      0.85;  // log odds of an independent beam that meets a wall to one that does not
   double learning = 0.1;
+  double doubtful_learning = 0.005;
   double most_through = 0.04;
   double least_hits = 0.3;
 } kBelief;
 
 }  // namespace
 
-void PoseBelief::take(const ScanAgreement& agreement, const scan::ScanGeometry& geometry,
-                      bool is_outside, const geometry::Pose2& T_odom_base) {
+void PoseBelief::take(const TrackerUpdate& update, const scan::ScanGeometry& geometry,
+                      const geometry::Pose2& T_odom_base) {
+  const ScanAgreement& agreement = update.agreement;
   if (!view_ || isAnotherView(*view_, T_odom_base)) {
     before_ = std::clamp(before_ + last_, -kBelief.most, kBelief.most);
     view_ = T_odom_base;
+    was_surprised_ = is_surprised_;
+    has_jumped_ = false;
   }
   last_ = std::clamp(logOdds(agreement, geometry), kBelief.most_against, kBelief.most_for);
-  if (is_outside) last_ = std::min(last_, kBelief.outside);
-  if (isSurprising(agreement)) last_ = std::min(last_, kBelief.surprising);
+  if (update.is_outside) last_ = std::min(last_, kBelief.outside);
+  is_surprised_ = isSurprising(agreement, geometry);
+  // A surprise counts once, however long what causes it is seen.
+  if (is_surprised_) last_ = std::min(last_, was_surprised_ ? 0.0 : kBelief.surprising);
+  has_jumped_ = has_jumped_ || update.jumped;
+  if (has_jumped_) last_ = std::min(last_, kBelief.surprising);
 }
 
-bool PoseBelief::isSurprising(const ScanAgreement& agreement) {
-  if (agreement.judged() < kLeastEvidence) return false;
-  const double hits =
-      static_cast<double>(agreement.on_wall) / static_cast<double>(agreement.judged());
+bool PoseBelief::isSurprising(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
+  if (agreement.judged() < kLeastEvidence) return is_surprised_;
+  const auto judged = static_cast<double>(agreement.judged());
+  const double hits = static_cast<double>(agreement.on_wall) / judged;
   const double usual = usual_hits_.value_or(hits);
-  usual_hits_ = usual + kBelief.learning * (hits - usual);
-  return hits < kBelief.surprise * usual;
+  const double missing =
+      kBelief.statement * (usual - hits) * judged * weightOf(agreement, geometry);
+  const bool is_surprising = hits < kBelief.surprise * usual && missing > kBelief.carried;
+  const double learning = is_surprising ? kBelief.doubtful_learning : kBelief.learning;
+  usual_hits_ = usual + learning * (hits - usual);
+  return is_surprising;
 }
 
 double PoseBelief::probability() const {

@@ -14,8 +14,9 @@ using geometry::Pose2;
 
 namespace {
 
-// Walls whose share in the error of the pose is kept apart: more than are seen from anywhere.
-constexpr std::size_t kMostWalls = 32;
+// Walls and jambs whose share in the error of the pose is kept apart: more than are seen from
+// anywhere.
+constexpr std::size_t kMostWalls = 48;
 
 bool areSame(const world::WallIndex& a, const world::WallIndex& b) {
   return a.room == b.room && a.wall == b.wall;
@@ -54,10 +55,11 @@ void PoseFilter::predict(const motion::OdometryNoise& odometry, const Pose2& ste
   F.topLeftCorner<3, 3>() = geometry::composeJacobianFirst(pose_, moved);
   F.block<2, 1>(0, 3) = pose_.rotation() * moved.translation() / scale_;
   if (holds_sweep) F.topRightCorner<3, 3>() = -G * motion::coordinatesByStartTwist(moved);
-  const Eigen::Matrix4d predicted = F * covariance_ * F.transpose();
+  const Eigen::Matrix<double, 4, kStates> spread = F.lazyProduct(covariance_);
+  const Eigen::Matrix4d predicted = spread.lazyProduct(F.transpose());
   covariance_.topLeftCorner<4, 4>() = predicted;
   for (WallShare& wall : walls_) {
-    wall.of_states.topRows<4>() = (F * wall.of_states).eval();
+    wall.of_states.topRows<4>() = F.lazyProduct(wall.of_states).eval();
   }
   covariance_.topLeftCorner<3, 3>() +=
       (holds_sweep ? 1.0 - known : 1.0) * G * noise * G.transpose();
@@ -78,7 +80,7 @@ PoseFilter::Innovation PoseFilter::innovation(const PolarLine& measured_base,
   result.wall_jacobian =
       geometry::transformJacobianLine(pose_.inverse(), wall_map) * wall.line_jacobian;
   result.value = line.value - result.jacobian.rightCols<3 * kKnots>() * motion_error_;
-  result.covariance_with_states = covariance_ * result.jacobian.transpose();
+  result.covariance_with_states = covariance_.lazyProduct(result.jacobian.transpose());
   result.covariance = line.noise + result.jacobian * result.covariance_with_states;
   result.nis = result.value.dot(result.covariance.inverse() * result.value);
   return result;
@@ -98,12 +100,14 @@ PoseFilter::WallShare& PoseFilter::shareOf(const WallError& wall) {
 }
 
 void PoseFilter::update(const Innovation& innovation) {
-  const ByWall gain = innovation.covariance_with_states * innovation.covariance.inverse();
+  const ByWall gain =
+      innovation.covariance_with_states.lazyProduct(innovation.covariance.inverse().eval());
   const Eigen::Matrix<double, kStates, 1> correction = gain * innovation.value;
   pose_ = Pose2(pose_.coordinates() + correction.head<3>());
   scale_ += correction[3];
   motion_error_ += correction.tail<3 * kKnots>();
-  covariance_ -= gain * innovation.covariance * gain.transpose();
+  const ByWall spread = gain.lazyProduct(innovation.covariance);
+  covariance_ -= spread.lazyProduct(gain.transpose());
   covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
   if (!innovation.wall.covariance.isZero(0.0)) updateWalls(innovation, gain);
 }

@@ -2,69 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
+
+#include "sightline/tracking/wall_finder.h"
 
 namespace sightline::tracking {
 
 namespace {
 
-// Walls of a room, and of those behind its doors.
-std::vector<world::WallIndex> wallsInSight(const TrackingContext& context, std::size_t room) {
-  std::vector<std::size_t> rooms{room};
-  for (const world::Door& door : context.map.doors()) {
-    for (const std::size_t side : {0U, 1U}) {
-      const std::size_t other = door.rooms[side];
-      const bool leads_there = context.config.neighbours && door.rooms[1 - side] == room;
-      if (leads_there && std::find(rooms.begin(), rooms.end(), other) == rooms.end()) {
-        rooms.push_back(other);
-      }
-    }
-  }
-  std::vector<world::WallIndex> walls;
-  for (const std::size_t seen : rooms) {
-    for (std::size_t wall = 0; wall < context.map.rooms()[seen].walls.size(); ++wall) {
-      walls.push_back({seen, wall});
-    }
-  }
-  return walls;
-}
-
-// The best-seen wall first: it leaves the others the least room for error.
-std::vector<std::size_t> byBeams(const std::vector<WallUpdate>& walls) {
-  std::vector<std::size_t> order(walls.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return walls[a].acceptedBeams() > walls[b].acceptedBeams();
-  });
-  return order;
-}
-
-void applyWalls(const TrackingContext& context, PoseFilter& filter,
-                std::vector<WallUpdate>& walls) {
-  for (const std::size_t i : byBeams(walls)) {
-    WallUpdate& wall = walls[i];
-    if (!wall.fit) continue;
-    const world::WallIndex index{wall.room, wall.wall};
-    const geometry::Segment& expected = context.map.wall(index).segment;
-    const auto innovation =
-        filter.innovation(wall.fit->line, expected.line(), wall.fit->motion_jacobian,
-                          WallError(index, expected, context.config.wall));
-    wall.innovation = WallInnovation{innovation.value, innovation.nis};
-    if (innovation.nis <= context.config.wall.max_nis) {
-      filter.update(innovation);
-    } else {
-      wall.refusal = WallRefusal::kOutsideGate;
-    }
-  }
-}
-
 // Log odds of what explains a scan beside the prediction.
 constexpr struct {
   double coasting = -2.0;
   double slip = -6.0;
+  double slip_again = -2.0;  // of wheels that were wrong a moment ago
   double no_walls = -2.0;
   double close_walls = -1.0;
+  // Of wheels that were wrong a moment ago.
+  double distrusted = -4.0;
+  std::int64_t longest_distrust = 3'000'000'000;  // [ns]
+  // Steps of wheels and of the motion going on are one within this [m, rad].
+  double same_step = 0.015;
+  double same_turn = 0.01;
+  // Errors of the motion going on for a while, beside a tenth of it [m, rad].
+  double coasting_position = 0.003;
+  double coasting_heading = 0.003;
+  double standing = 0.002;  // step of wheels that stand [m, rad]
+  // Sum of normalised innovations squared of the walls, past which wheels that have stopped may be
+  // wrong.
+  double most_nis = 16.0;
   // What counts as close [m, rad], one sigma.
   double close_position = 0.05;
   double close_heading = 0.015;
@@ -72,32 +37,26 @@ constexpr struct {
   // this share of them is not as predicted, and costs this log odds where it is all of them.
   double most_unused = 0.15;
   double unused = -8.0;
-  double learning = 0.1;  // of how many beams meet walls, by a scan
+  double enough_hits = 0.3;  // share of all beams on walls from which on that holds in full
+  double learning = 0.1;     // of how many beams meet walls, by a scan
+  // Independent statements of beams on walls that a slip of the wheels takes to be believed.
+  double least_support = 10.0;
+  double proof = 20.0;  // and wheels, not to be believed for a while
 } kPriors;
 
-double unusedShare(const PoseTrack::Explanation& explanation) {
-  double used = 0.0;
-  for (const WallUpdate& wall : explanation.walls) {
-    if (wall.accepted()) used += static_cast<double>(wall.acceptedBeams());
-  }
-  const auto met = static_cast<double>(explanation.agreement.on_wall);
-  return met > 0.0 ? std::max(0.0, 1.0 - used / met) : 0.0;
+void keepBetter(Explanation& best, Explanation other, double log_prior,
+                Explanation::Motion motion) {
+  other.log_posterior += log_prior;
+  other.motion = motion;
+  if (other.log_posterior > best.log_posterior) best = std::move(other);
 }
 
-bool contradictsPrediction(const TrackerInput& input, const PoseTrack::Explanation& explanation,
-                           double min_quality) {
-  const ScanAgreement& agreement = explanation.agreement;
-  if (agreement.evidence() >= kLeastEvidence && agreement.quality() < min_quality) return true;
-  if (logOdds(agreement, *input.scan.geometry()) < 0.0) return true;
-  if (unusedShare(explanation) > kPriors.most_unused) return true;
-  // Walls well seen and yet refused: gates must not lock out for ever what contradicts a wrong
-  // prediction.
-  std::size_t accepted = 0;
-  std::size_t refused = 0;
-  for (const WallUpdate& wall : explanation.walls) {
-    (wall.accepted() ? accepted : refused) += wall.acceptedBeams();
+// Reports the gates that the prediction leaves open.
+void showGatesOf(const Explanation& predicted, Explanation& explanation) {
+  for (std::size_t i = 0; i < predicted.walls.size(); ++i) {
+    explanation.walls[i].gate = predicted.walls[i].gate;
+    explanation.walls[i].beams_in_gate = predicted.walls[i].beams_in_gate;
   }
-  return refused > accepted;
 }
 
 }  // namespace
@@ -113,17 +72,18 @@ void PoseTrack::predict(const TrackingContext& context, const TrackerInput& inpu
   if (last_motion_) {
     coasting_ = filter_;
     coasting_->predict(context.config.odometry, *last_motion_);
-    coasting_->inflate(0.1 * last_motion_->translation().norm(),
-                       0.1 * std::abs(last_motion_->theta()));
+    const double more = distrusted_at_ ? 1.0 : 0.0;
+    coasting_->inflate(0.1 * last_motion_->translation().norm() + more * kPriors.coasting_position,
+                       0.1 * std::abs(last_motion_->theta()) + more * kPriors.coasting_heading);
   }
+  step_ = step;
   filter_.predict(context.config.odometry, *step);
 }
 
-PoseTrack::Explanation PoseTrack::explainFrom(const PoseFilter& prior,
-                                              const PoseFilter& looked_from,
-                                              const TrackingContext& context,
-                                              const TrackerInput& input, const Sweep& sweep) const {
-  Explanation explanation{prior, {}, {}, 0.0};
+Explanation PoseTrack::explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
+                                   const TrackingContext& context, const TrackerInput& input,
+                                   const Sweep& sweep) const {
+  Explanation explanation{prior, {}, {}, {}};
   const WallFinder finder(context.config);
   for (WallFit& fit :
        finder.find(looked_from, context.map, wallsInSight(context, memory_.room()), sweep)) {
@@ -131,6 +91,7 @@ PoseTrack::Explanation PoseTrack::explainFrom(const PoseFilter& prior,
   }
   explanation.filter.beginSweep(sweep.motion_noise);
   applyWalls(context, explanation.filter, explanation.walls);
+  applyJambs(context, memory_.room(), sweep, explanation);
   judge(context, input, explanation);
   return explanation;
 }
@@ -147,14 +108,17 @@ void PoseTrack::judge(const TrackingContext& context, const TrackerInput& input,
     if (!wall.innovation) continue;
     explanation.log_posterior -= 0.5 * std::min(wall.innovation->nis, context.config.wall.max_nis);
   }
-  explanation.log_posterior += kPriors.unused * unusedShare(explanation);
+  const ScanAgreement& seen = explanation.agreement;
+  const double enough =
+      kPriors.enough_hits * static_cast<double>(std::max<std::size_t>(1, seen.looked_at));
+  const double hits = std::min(1.0, static_cast<double>(seen.on_wall) / enough);
+  explanation.log_posterior += kPriors.unused * hits * unusedShare(explanation);
 }
 
 // The walls that were found were none: the pose stays as predicted.
-PoseTrack::Explanation PoseTrack::withoutWalls(const Explanation& taken,
-                                               const TrackingContext& context,
-                                               const TrackerInput& input) const {
-  Explanation none{filter_, taken.walls, {}, 0.0};
+Explanation PoseTrack::withoutWalls(const Explanation& taken, const TrackingContext& context,
+                                    const TrackerInput& input) const {
+  Explanation none{filter_, taken.walls, {}, {}};
   judge(context, input, none);
   none.log_posterior =
       logLikelihood(none.agreement, *input.scan.geometry(), usual_hits_) + kPriors.unused;
@@ -164,31 +128,86 @@ PoseTrack::Explanation PoseTrack::withoutWalls(const Explanation& taken,
   return none;
 }
 
-PoseTrack::Explanation PoseTrack::explain(const TrackingContext& context,
-                                          const TrackerInput& input) const {
-  const SlipConfig& slip = context.config.slip;
-  const Sweep sweep = readSweep(input.scan, input.T_base_sensor);
-  Explanation best = explainFrom(filter_, filter_, context, input, sweep);
-  if (!contradictsPrediction(input, best, slip.min_quality)) return best;
-  const auto consider = [&best](Explanation other, double log_prior) {
-    other.log_posterior += log_prior;
-    if (other.log_posterior > best.log_posterior) best = std::move(other);
-  };
-  const Explanation taken = best;
-  const PoseFilter close = filter_.limited(kPriors.close_position, kPriors.close_heading);
-  Explanation by_close_walls = explainFrom(filter_, close, context, input, sweep);
-  for (std::size_t i = 0; i < taken.walls.size(); ++i) {
-    by_close_walls.walls[i].gate = taken.walls[i].gate;  // what the prediction leaves open
-    by_close_walls.walls[i].beams_in_gate = taken.walls[i].beams_in_gate;
+// Whether the wheels report what the robot did before.
+bool PoseTrack::goesOn() const {
+  if (!step_ || !last_motion_) return true;
+  const geometry::Pose2 change = geometry::between(*step_, *last_motion_);
+  return change.translation().norm() < kPriors.same_step &&
+         std::abs(change.theta()) < kPriors.same_turn;
+}
+
+bool PoseTrack::isContradicted(const TrackingContext& context, const TrackerInput& input,
+                               const Explanation& explanation) const {
+  const ScanAgreement& agreement = explanation.agreement;
+  if (agreement.evidence() >= kLeastEvidence &&
+      agreement.quality() < context.config.slip.min_quality) {
+    return true;
   }
-  consider(std::move(by_close_walls), kPriors.close_walls);
-  consider(withoutWalls(taken, context, input), kPriors.no_walls);
-  if (coasting_)
-    consider(explainFrom(*coasting_, *coasting_, context, input, sweep), kPriors.coasting);
-  PoseFilter slipped = filter_;
-  slipped.inflate(slip.position_sigma, slip.heading_sigma);
-  consider(explainFrom(slipped, slipped, context, input, sweep), kPriors.slip);
+  if (logOdds(agreement, *input.scan.geometry()) < 0.0) return true;
+  if (unusedShare(explanation) > kPriors.most_unused) return true;
+  return areWallsRefused(explanation.walls);
+}
+
+bool PoseTrack::haveStopped() const {
+  return step_ && step_->translation().norm() < kPriors.standing &&
+         std::abs(step_->theta()) < kPriors.standing && !goesOn();
+}
+
+// Whether the wheels have stopped from one scan to the next, and the walls take it reluctantly: it
+// may be their reports that have stopped.
+bool PoseTrack::isMotionDoubted(const Explanation& explanation) const {
+  return haveStopped() && nisOf(explanation.walls) > kPriors.most_nis;
+}
+
+Explanation PoseTrack::explain(const TrackingContext& context, const TrackerInput& input) const {
+  using Motion = Explanation::Motion;
+  const Sweep sweep = readSweep(input.scan, input.T_base_sensor);
+  const auto lookFrom = [&](const PoseFilter& prior, const PoseFilter& looked_from) {
+    return explainFrom(prior, looked_from, context, input, sweep);
+  };
+  Explanation best = lookFrom(filter_, filter_);
+  const Explanation taken = best;
+  if (coasting_ && distrusted_at_) {
+    best.log_posterior += kPriors.distrusted;
+    keepBetter(best, lookFrom(*coasting_, *coasting_), 0.0, Motion::kCoasting);
+  }
+  const bool is_contradicted = isContradicted(context, input, best);
+  if (!is_contradicted && !isMotionDoubted(best)) return best;
+  if (is_contradicted) {
+    const PoseFilter close = filter_.limited(kPriors.close_position, kPriors.close_heading);
+    Explanation by_close_walls = lookFrom(filter_, close);
+    showGatesOf(taken, by_close_walls);
+    keepBetter(best, std::move(by_close_walls), kPriors.close_walls, Motion::kUnknown);
+    keepBetter(best, withoutWalls(taken, context, input), kPriors.no_walls, Motion::kUnknown);
+  }
+  if (coasting_ && !distrusted_at_) {
+    keepBetter(best, lookFrom(*coasting_, *coasting_), kPriors.coasting, Motion::kCoasting);
+  }
+  if (!is_contradicted) return best;
+  PoseFilter slipped = coasting_ && distrusted_at_ ? *coasting_ : filter_;
+  slipped.inflate(context.config.slip.position_sigma, context.config.slip.heading_sigma);
+  const double log_prior = distrusted_at_ ? kPriors.slip_again : kPriors.slip;
+  keepBetter(best, lookFrom(slipped, slipped), log_prior, Motion::kSlip);
   return best;
+}
+
+// Wheels that have stopped reporting are likely to be silent at the next scan, too.
+void PoseTrack::learnMotion(const TrackerInput& input, const Explanation& explanation) {
+  using Motion = Explanation::Motion;
+  const geometry::Pose2 after = explanation.filter.pose().mean;
+  const bool goes_on = explanation.motion == Motion::kCoasting;
+  const bool is_wrong = haveStopped() && (goes_on || explanation.motion == Motion::kSlip) &&
+                        supportOf(explanation.agreement, *input.scan.geometry()) >= kPriors.proof;
+  if (is_wrong && !distrusted_at_) distrusted_at_ = input.scan.stamp;
+  const bool is_over =
+      explanation.motion == Motion::kWheels || (goes_on && goesOn()) ||
+      (distrusted_at_ && input.scan.stamp - *distrusted_at_ > kPriors.longest_distrust);
+  if (is_over) distrusted_at_.reset();
+  const bool is_motion = goes_on || explanation.motion == Motion::kWheels;
+  if (before_ && is_motion) {
+    last_motion_ = geometry::between(*before_, after);
+  }
+  before_ = after;
 }
 
 void PoseTrack::learnHits(const ScanAgreement& agreement) {
@@ -200,15 +219,17 @@ void PoseTrack::learnHits(const ScanAgreement& agreement) {
 
 TrackerUpdate PoseTrack::commit(const TrackingContext& context, const TrackerInput& input,
                                 Explanation explanation) {
+  learnMotion(input, explanation);
   filter_ = explanation.filter;
   learnHits(explanation.agreement);
-  if (before_) last_motion_ = geometry::between(*before_, pose().mean);
-  before_ = pose().mean;
   TrackerUpdate update = memory_.report(context, input, pose(), explanation.agreement);
   update.odometry_scale = filter_.scale();
   update.odometry_scale_sigma = filter_.scaleSigma();
   update.covariance_valid = update.state != TrackerState::kLost;
+  update.jumped = explanation.motion == Explanation::Motion::kSlip &&
+                  supportOf(explanation.agreement, *input.scan.geometry()) < kPriors.least_support;
   update.walls = std::move(explanation.walls);
+  update.jambs = std::move(explanation.jambs);
   if (memory_.changeRoom(context.map, pose().mean.translation())) {
     inflate(context.config.threshold_position_sigma, context.config.threshold_heading_sigma);
   }

@@ -83,8 +83,7 @@ void RivalTracks::move(const TrackingContext& context, const TrackerInput& input
     const auto update = hypothesis.track.update(context, input);
     if (!update) continue;
     hypothesis.update = *update;
-    hypothesis.belief.take(update->agreement, *input.scan.geometry(), update->is_outside,
-                           input.T_odom_base);
+    hypothesis.belief.take(*update, *input.scan.geometry(), input.T_odom_base);
   }
 }
 
@@ -122,8 +121,7 @@ void RivalTracks::search(const TrackingContext& context, const TrackerInput& inp
     const auto update = rival.track.update(context, input);
     if (!update) continue;
     rival.update = *update;
-    rival.belief.take(update->agreement, *input.scan.geometry(), update->is_outside,
-                      input.T_odom_base);
+    rival.belief.take(*update, *input.scan.geometry(), input.T_odom_base);
     rival.way.add(input.T_odom_base);
     rival.last_key = logLikelihood(update->agreement, *input.scan.geometry(), usual_hits_);
     rival.log_posterior = rival.last_key + logPriorOf(context, update->pose.mean);
@@ -182,7 +180,9 @@ bool RivalTracks::isInDoubt() const {
 // What spoke against a pose that had been certain was a flaw of the map, where all that is seen on
 // the way from there speaks for it again.
 void RivalTracks::dismissRivals() {
-  const bool is_sure = hypotheses_.front().belief.probability() >= kRivals.beyond_doubt;
+  const Hypothesis& published = hypotheses_.front();
+  const bool is_sure =
+      published.belief.probability() >= kRivals.beyond_doubt && !published.belief.isSurprised();
   if (!is_confirmed_ || !is_claimed_ || !is_sure) return;
   hypotheses_.erase(hypotheses_.begin() + 1, hypotheses_.end());
 }

@@ -31,14 +31,13 @@ constexpr BeamModel kRight{0.79, 0.19, kThrough};
 constexpr BeamModel kElsewhere{0.53, 0.19, 0.28};
 constexpr double kIndependent = 0.07;  // angle between beams that tell two things [rad]
 
-// Share of an independent statement that one of the beams looked at makes.
+}  // namespace
+
 double weightOf(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
   const double span = std::abs(geometry.angles().back() - geometry.angles().front());
   const auto beams = static_cast<double>(std::max<std::size_t>(1, agreement.looked_at));
   return std::min(1.0, span / kIndependent / beams);
 }
-
-}  // namespace
 
 double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& geometry,
                      double usual_hits) {

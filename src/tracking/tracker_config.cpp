@@ -50,6 +50,20 @@ void WallConfig::visit(config::FieldVisitor& visitor) {
                   "largest normalised innovation squared of an update, 2 degrees of freedom"});
 }
 
+void DoorConfig::visit(config::FieldVisitor& visitor) {
+  visitor.flag(
+      "are_landmarks", are_landmarks,
+      "method full: the jambs of doors correct the pose along their wall (jensfelt section "
+      "5.3)");
+  visitor.number("position_sigma", position_sigma,
+                 {"m", kShare, "how well the map knows where a jamb stands along its wall"});
+  visitor.number("asked_from", asked_from,
+                 {"m",
+                  {0.0, 10.0},
+                  "position uncertainty along a wall from which on its jambs are asked: what walls "
+                  "tell is better, as leaves of doors stand half open"});
+}
+
 void SlipConfig::visit(config::FieldVisitor& visitor) {
   visitor.number(
       "min_quality", min_quality,
@@ -85,6 +99,7 @@ void TrackerConfig::visit(config::FieldVisitor& visitor) {
   visitor.group("gate", gate);
   visitor.group("hough", hough);
   visitor.group("wall", wall);
+  visitor.group("doors", doors);
   visitor.group("slip", slip);
   visitor.group("odometry", odometry);
   visitor.number(

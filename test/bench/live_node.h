@@ -61,6 +61,15 @@ class Process {
     return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
   }
 
+  /// Most memory that it has had at a time [MB].
+  double peakMegabytes() const {
+    std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.rfind("VmHWM:", 0) == 0) return std::stod(line.substr(6)) / 1024.0;
+    }
+    return 0.0;
+  }
+
  private:
   pid_t pid_ = -1;
 };

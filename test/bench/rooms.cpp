@@ -11,6 +11,10 @@
 // same log; _raw: with its wheels as they were logged; _no_start: without a start pose.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +22,9 @@
 
 #include "rooms/floor_starts.h"
 #include "rooms/freiburg.h"
+#include "rooms/limits.h"
+#include "rooms/node.h"
+#include "rooms/paper_runs.h"
 #include "rooms/scenarios.h"
 #include "sightline/geometry/statistics.h"
 #include "two_rooms.h"
@@ -73,9 +80,7 @@ void benchmark(const TwoRoomsScenario& scenario, const std::string& variant,
   print("rooms.two_rooms." + scenario.name + variant, samples);
 }
 
-}  // namespace
-
-int main() {
+void printTold(int) {
   const auto told = test::trackerConfig();
   auto plain = told;
   plain.method = tracking::Method::kPlain;
@@ -83,8 +88,47 @@ int main() {
   benchmark({"utm30lx", 0.0, 0.0, true}, "", told);
   benchmark({"fixed", 0.0, 0.0, false, true}, "", told);
   benchmark({"turret", 0.0, 0.0, false, true, geometry::radians(90.0)}, "", told);
-  bench::printTwoRooms(20);
-  bench::printFloorStarts(100);
-  bench::printFreiburg();
+}
+
+struct Group {
+  std::string name;
+  int seeds;
+  std::function<void(int)> print;
+};
+
+std::vector<Group> groups(const std::filesystem::path& folder) {
+  return {
+      {"told", kRuns, printTold},
+      {"two_rooms", 20, bench::printTwoRooms},
+      {"bootstrap", 100, bench::printFloorStarts},
+      {"papers", 100, bench::printPaperRuns},
+      {"limits", 100,
+       [=](int seeds) { bench::printLimits(seeds, (folder / "rooms_limits.png").string()); }},
+      {"node", 1, [](int) { bench::printNode(); }},
+      {"fr079", 1, [](int) { bench::printFreiburg(); }},
+  };
+}
+
+}  // namespace
+
+// `bench_rooms [GROUP...] [--seeds N]`: all groups with the seeds of the figures, or some of them
+// with fewer while something is being tried out.
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  std::vector<std::string> wanted;
+  std::optional<int> seeds;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--seeds" && i + 1 < argc) {
+      seeds = std::stoi(argv[++i]);
+    } else {
+      wanted.push_back(argument);
+    }
+  }
+  for (const Group& group : groups(std::filesystem::path(argv[0]).parent_path())) {
+    const bool is_wanted =
+        wanted.empty() || std::find(wanted.begin(), wanted.end(), group.name) != wanted.end();
+    if (is_wanted) group.print(seeds.value_or(group.seeds));
+  }
   return 0;
 }

@@ -102,8 +102,8 @@ TEST_F(RoomTrackerNode, DrawsWallsGatesPointsAndEllipse) {
     names.push_back(marker.ns);
     EXPECT_EQ(marker.header.frame_id, "map");
   }
-  EXPECT_THAT(names,
-              testing::UnorderedElementsAre("walls", "gates", "accepted", "position 95 %", "room"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("walls", "gates", "accepted", "position 95 %",
+                                                   "rivals", "room"));
 }
 
 TEST_F(RoomTrackerNode, Services) {

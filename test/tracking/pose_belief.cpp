@@ -11,12 +11,15 @@ using geometry::Pose2;
 
 class PoseBeliefTest : public ::testing::Test {
  protected:
-  void take(std::size_t on_wall, std::size_t beyond, const Pose2& T_odom_base) {
-    ScanAgreement agreement;
-    agreement.on_wall = on_wall;
-    agreement.beyond = beyond;
-    agreement.looked_at = 360;
-    belief_.take(agreement, *geometry_, false, T_odom_base);
+  void take(std::size_t on_wall, std::size_t beyond, const Pose2& T_odom_base,
+            std::size_t occluded = 0, bool jumped = false) {
+    TrackerUpdate update;
+    update.agreement.on_wall = on_wall;
+    update.agreement.beyond = beyond;
+    update.agreement.occluded = occluded;
+    update.agreement.looked_at = 360;
+    update.jumped = jumped;
+    belief_.take(update, *geometry_, T_odom_base);
   }
 
   test::SimulatedRooms rooms_{"rooms:\n  box: {size: [6.0, 4.0]}\n"};
@@ -42,6 +45,38 @@ TEST_F(PoseBeliefTest, SoManyViewsAreNot) {
 TEST_F(PoseBeliefTest, AScanThroughAllWallsIsEnoughToDoubt) {
   take(20, 200, {});
   EXPECT_LT(belief_.probability(), 0.1);
+}
+
+// The robot was carried to a place of which a third fits: at the first scan, and though views there
+// speak for it, too.
+TEST_F(PoseBeliefTest, FarFewerWallsThanUsualAreASurpriseThatLasts) {
+  for (int i = 0; i < 20; ++i) take(355, 0, {0.3 * i, 0.0, 0.0});
+  EXPECT_FALSE(belief_.isSurprised());
+  take(120, 0, {6.0, 0.0, 0.0}, 235);
+  EXPECT_TRUE(belief_.isSurprised());
+  EXPECT_LT(belief_.probability(), 0.9);
+  for (int i = 1; i < 10; ++i) take(120, 0, {6.0 + 0.3 * i, 0.0, 0.0}, 235);
+  EXPECT_TRUE(belief_.isSurprised());
+  EXPECT_LT(belief_.probability(), 0.9);
+  EXPECT_GT(belief_.probability(), 0.5) << "it counts once";
+  for (int i = 10; i < 15; ++i) take(355, 0, {6.0 + 0.3 * i, 0.0, 0.0});
+  EXPECT_FALSE(belief_.isSurprised());
+  EXPECT_GT(belief_.probability(), 0.99);
+}
+
+TEST_F(PoseBeliefTest, ClutterThatComesAndGoesIsNone) {
+  for (int i = 0; i < 40; ++i) {
+    take(i % 10 < 5 ? 80 : 30, 0, {0.1 * i, 0.0, 0.0}, i % 10 < 5 ? 280 : 330);
+    EXPECT_FALSE(belief_.isSurprised()) << i;
+  }
+}
+
+TEST_F(PoseBeliefTest, AJumpIsDoubtedUntilTheNextViews) {
+  for (int i = 0; i < 20; ++i) take(200, 0, {0.3 * i, 0.0, 0.0});
+  take(60, 0, {6.0, 0.0, 0.0}, 140, true);
+  EXPECT_LT(belief_.probability(), 0.9);
+  for (int i = 1; i < 3; ++i) take(200, 0, {6.0 + 0.3 * i, 0.0, 0.0});
+  EXPECT_GT(belief_.probability(), 0.95);
 }
 
 TEST_F(PoseBeliefTest, NoEvidenceChangesNothing) {

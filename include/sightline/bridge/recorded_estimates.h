@@ -35,6 +35,7 @@ class RecordedEstimates {
 
  private:
   pipeline::EstimatorSet set_;
+  std::string folder_;
   pipeline::Estimators estimators_;
   rosbag::Bag bag_;
   ros::Time now_;

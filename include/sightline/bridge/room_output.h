@@ -12,6 +12,7 @@
 #include "sightline/bridge/output.h"
 #include "sightline/bridge/shortfall.h"
 #include "sightline/pipeline/estimators.h"
+#include "sightline/tracking/wall_report.h"
 
 namespace sightline::bridge {
 
@@ -44,19 +45,26 @@ class RoomOutput {
   const TrackerStatus& status() const { return status_; }
   double odometryScale() const { return odometry_scale_; }
   EstimatorCount counted() const { return {"rooms", poses_, without_pose_}; }
+  /// What became of the scans, and the walls that stand elsewhere than the map says, or do not fit.
   std::vector<std::string> summary() const;
+  /// Writes each wall that was seen, how often it corrected the pose and where it was seen to
+  /// stand, one a line. Throws config::Error with the path where it cannot be written.
+  void writeWalls(const std::string& path) const;
 
  private:
   void writeMap();
   void writeFrameOfRooms(Output& output);
   void writeTransform(geometry_msgs::TransformStamped T_map_odom);
   void writePose(const pipeline::Estimates& estimates);
+  std::vector<std::string> suspectWalls() const;
   std::string writeNone(const pipeline::Estimates& estimates, bool has_pose);
 
   RoomOutputConfig config_;
   pipeline::Frames frames_;
   const world::RoomMap& map_;
   double map_resolution_;
+  double wall_sigma_;
+  tracking::WallReport wall_report_;
   Port<geometry_msgs::PoseWithCovarianceStamped> pose_;
   Port<TrackerStatus> status_port_;
   Port<tf2_msgs::TFMessage> transforms_;

@@ -59,7 +59,7 @@ class Node {
   std::vector<double> numbers(Range range = {}) const;
   /// The same, of exactly `count` numbers.
   std::vector<double> numbers(std::size_t count, Range range = {}) const;
-  /// [x, y, yaw] [m, m, rad].
+  /// [x, y, yaw] [m, m, rad]; a yaw of more than a turn is refused, as it is in degrees.
   geometry::Pose2 pose(Range range = {}) const;
 
   double numberOr(const std::string& key, double fallback, Range range = {}) const;

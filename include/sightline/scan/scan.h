@@ -73,6 +73,8 @@ class Scan {
   Eigen::Vector2d point(std::size_t beam) const;
   /// Covariance of point(beam) [m²], first order in the angle; the motion's noise is not in it.
   Eigen::Matrix2d covariance(std::size_t beam) const;
+  /// The same where the beam's direction is at hand.
+  Eigen::Matrix2d covariance(std::size_t beam, const Eigen::Vector2d& along) const;
   /// Time from the first beam to the last [s].
   double duration() const { return geometry_ ? geometry_->timeOffsets().back() : 0.0; }
   /// Stamp of the last beam [ns].

@@ -4,7 +4,7 @@
 
 #include "sightline/geometry/pose2.h"
 #include "sightline/scan/scan_geometry.h"
-#include "sightline/tracking/scan_agreement.h"
+#include "sightline/tracking/tracker_update.h"
 
 namespace sightline::tracking {
 
@@ -16,21 +16,26 @@ class PoseBelief {
  public:
   explicit PoseBelief(double log_odds) : before_(log_odds) {}
 
-  /// `is_outside` is whether the hypothesis has left every room.
-  void take(const ScanAgreement& agreement, const scan::ScanGeometry& geometry, bool is_outside,
+  /// Takes what a scan has left the hypothesis with.
+  void take(const TrackerUpdate& update, const scan::ScanGeometry& geometry,
             const geometry::Pose2& T_odom_base);
 
   double probability() const;
   /// Whether the last scan spoke against the pose.
   bool isContradicted() const { return last_ < 0.0; }
+  /// Whether far fewer beams meet walls than before: who looks elsewhere may find more.
+  bool isSurprised() const { return is_surprised_; }
 
  private:
-  bool isSurprising(const ScanAgreement& agreement);
+  bool isSurprising(const ScanAgreement& agreement, const scan::ScanGeometry& geometry);
 
   double before_;      // log odds by the views before this one
   double last_ = 0.0;  // by the last scan
   std::optional<geometry::Pose2> view_;
   std::optional<double> usual_hits_;  // share of the beams that meet walls
+  bool is_surprised_ = false;         // by the last scan
+  bool was_surprised_ = false;        // by the last scan of the view before
+  bool has_jumped_ = false;           // within this view
 };
 
 /// A scan that a pose may be claimed by: less than 4 % of the beams go through walls, and at least

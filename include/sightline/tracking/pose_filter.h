@@ -18,7 +18,7 @@ namespace sightline::tracking {
 /// scale as a state). Errors of the walls of the map are constants, which no number of scans
 /// averages out. The gains take them for noise of each scan, which forgives walls that are not
 /// straight and things in front of them; what each constant has done to the pose is kept, for the
-/// last 32 walls, and adds to the covariance (consider analysis, Schmidt 1966). A value: copies are
+/// last 48 walls, and adds to the covariance (consider analysis, Schmidt 1966). A value: copies are
 /// independent.
 class PoseFilter {
  public:

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
+#include "sightline/tracking/explanation.h"
 #include "sightline/tracking/pose_filter.h"
 #include "sightline/tracking/tracking_context.h"
-#include "sightline/tracking/wall_finder.h"
 
 namespace sightline::tracking {
 
@@ -17,18 +16,13 @@ class PoseTrack {
   PoseTrack(const TrackingContext& context, const geometry::UncertainPose2& start,
             std::size_t room);
 
-  /// One way of explaining a scan: the pose before it, corrected by the walls found from there.
-  struct Explanation {
-    PoseFilter filter;
-    std::vector<WallUpdate> walls;
-    ScanAgreement agreement;
-    double log_posterior = 0.0;  ///< up to a constant: prior, beams and walls
-  };
   /// Moves with the odometry to the stamp of a scan.
   void predict(const TrackingContext& context, const TrackerInput& input);
   /// The scan as predicted; where that does not agree, the best of that, of the motion before
   /// having gone on whatever the wheels say, of a slip of the wheels, of walls close to where they
-  /// are expected alone, and of no wall at all being what it was taken for.
+  /// are expected alone, and of no wall at all being what it was taken for. Wheels that stop from
+  /// one scan to the next where the walls move on are not believed for a while: until scans speak
+  /// for them, or they report the motion again.
   Explanation explain(const TrackingContext& context, const TrackerInput& input) const;
   /// Takes an explanation for the truth, and goes into the next room where it leads there.
   TrackerUpdate commit(const TrackingContext& context, const TrackerInput& input,
@@ -50,6 +44,12 @@ class PoseTrack {
   Explanation explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
                           const TrackingContext& context, const TrackerInput& input,
                           const Sweep& sweep) const;
+  bool goesOn() const;
+  bool haveStopped() const;
+  bool isContradicted(const TrackingContext& context, const TrackerInput& input,
+                      const Explanation& explanation) const;
+  bool isMotionDoubted(const Explanation& explanation) const;
+  void learnMotion(const TrackerInput& input, const Explanation& explanation);
   Explanation withoutWalls(const Explanation& taken, const TrackingContext& context,
                            const TrackerInput& input) const;
   void learnHits(const ScanAgreement& agreement);
@@ -59,7 +59,9 @@ class PoseTrack {
   PoseFilter filter_;
   std::optional<PoseFilter> coasting_;          // as if the motion before had gone on
   std::optional<geometry::Pose2> before_;       // pose after the last scan
-  std::optional<geometry::Pose2> last_motion_;  // from the last scan but one to the last
+  std::optional<geometry::Pose2> last_motion_;  // by wheels or walls, between the last scans
+  std::optional<geometry::Pose2> step_;         // by the wheels, to the scan in hand
+  std::optional<std::int64_t> distrusted_at_;   // stamp since which wheels are not believed
   TrackMemory memory_;
   double usual_hits_ = kUsualHits;
 };

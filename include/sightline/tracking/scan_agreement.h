@@ -48,6 +48,10 @@ double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& g
 /// the map does not tell says nothing.
 double logOdds(const ScanAgreement& agreement, const scan::ScanGeometry& geometry);
 
+/// Share of an independent statement that one of the beams looked at makes: what stops one beam
+/// stops its neighbours.
+double weightOf(const ScanAgreement& agreement, const scan::ScanGeometry& geometry);
+
 /// `tolerance` [m], of the distance from a wall and of the place on it, is for what pose, map and
 /// sensor leave open. The view has to be that of the pose, T_map_sensor. Of every `stride` beams
 /// one is looked at.

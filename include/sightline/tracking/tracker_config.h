@@ -37,6 +37,16 @@ struct WallConfig {
   void visit(config::FieldVisitor& visitor);
 };
 
+/// Doors as landmarks: their jambs, where the map says that the wall is solid up to them.
+struct DoorConfig {
+  bool are_landmarks = true;
+  double position_sigma = 0.03;  ///< of a jamb of the map along its wall [m]
+  /// Uncertainty along a wall that its jambs are asked from on [m]: what walls tell is better.
+  double asked_from = 0.05;
+
+  void visit(config::FieldVisitor& visitor);
+};
+
 /// A step of the wheels that did not happen as reported is noticed by what the scanner sees, and
 /// tried again with this much more uncertainty.
 struct SlipConfig {
@@ -65,6 +75,7 @@ struct TrackerConfig {
   GateConfig gate;
   HoughConfig hough;
   WallConfig wall;
+  DoorConfig doors;
   SlipConfig slip;
   motion::OdometryNoise odometry = motion::OdometryNoise::unmeasured();
   double threshold_position_sigma = 0.1;    ///< added on passing a door, jensfelt section 4.3 [m]

@@ -87,26 +87,30 @@ inline void thinOdometry(RecordedDrive& drive, std::size_t every, std::size_t fi
   drive.odometry = std::move(kept);
 }
 
-/// The robot is carried to where another drive is at the same time, the wheels noticing nothing.
-inline void kidnap(RecordedDrive& drive, const RecordedDrive& other, double time) {
+/// From a time [s] on the robot is where another drive has it at the same time: it was carried or
+/// turned, the wheels noticing nothing.
+inline void moveUnnoticed(RecordedDrive& drive, const RecordedDrive& other, double time) {
   const auto from = static_cast<std::int64_t>(time * 1e9);
   const auto is_before = [&](const RecordedDrive::Sweep& sweep) { return sweep.scan.stamp < from; };
-  const auto cut = std::find_if_not(drive.sweeps.begin(), drive.sweeps.end(), is_before);
-  drive.sweeps.erase(cut, drive.sweeps.end());
+  const auto is_earlier = [&](const geometry::StampedPose2& pose) { return pose.stamp < from; };
+  motion::PoseHistory truth(std::numeric_limits<std::int64_t>::max() / 2);
+  const auto addTruth = [&](std::int64_t stamp, const RecordedDrive& of) {
+    if (const auto pose = of.truth.at(stamp)) truth.add(stamp, *pose);
+  };
+  drive.sweeps.erase(std::find_if_not(drive.sweeps.begin(), drive.sweeps.end(), is_before),
+                     drive.sweeps.end());
   for (const RecordedDrive::Sweep& sweep : other.sweeps) {
     if (!is_before(sweep)) drive.sweeps.push_back(sweep);
   }
-  motion::PoseHistory truth(std::numeric_limits<std::int64_t>::max() / 2);
-  geometry::Pose2 T_old_new;
-  for (std::size_t i = 0; i < std::min(drive.odometry.size(), other.odometry.size()); ++i) {
-    geometry::StampedPose2& sample = drive.odometry[i];
-    const geometry::Pose2& elsewhere = other.odometry[i].pose;
-    const bool is_here = sample.stamp < from;
-    if (is_here) T_old_new = sample.pose * elsewhere.inverse();
-    if (!is_here) sample.pose = T_old_new * elsewhere;
-    if (const auto pose = (is_here ? drive : other).truth.at(sample.stamp)) {
-      truth.add(sample.stamp, *pose);
-    }
+  auto& odometry = drive.odometry;
+  odometry.erase(std::find_if_not(odometry.begin(), odometry.end(), is_earlier), odometry.end());
+  for (const geometry::StampedPose2& pose : odometry) addTruth(pose.stamp, drive);
+  const auto first = std::find_if_not(other.odometry.begin(), other.odometry.end(), is_earlier);
+  const auto seam = first == other.odometry.begin() ? first : std::prev(first);
+  const geometry::Pose2 T_old_new = odometry.back().pose * seam->pose.inverse();
+  for (auto pose = first; pose != other.odometry.end(); ++pose) {
+    odometry.push_back({pose->stamp, T_old_new * pose->pose});
+    addTruth(pose->stamp, other);
   }
   drive.truth = truth;
 }

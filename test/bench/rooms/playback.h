@@ -19,9 +19,11 @@ namespace sightline::bench {
 struct TrackedScan {
   double time = 0.0;  // of the scan [s]
   bool has_pose = false;
-  double position_error = 0.0;  // [m]
-  double heading_error = 0.0;   // [rad]
-  double nees = 0.0;            // of x, y and heading
+  double position_error = 0.0;                      // [m]
+  double heading_error = 0.0;                       // [rad]
+  double nees = 0.0;                                // of x, y and heading
+  Eigen::Vector3d error = Eigen::Vector3d::Zero();  // of x, y and heading, in the map [m, rad]
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // that the tracker gives it
   tracking::TrackerState state = tracking::TrackerState::kInitialising;
   double quality = 0.0;
   double microseconds = 0.0;
@@ -87,6 +89,8 @@ class Playback {
     Eigen::Vector3d error = update->pose.mean.coordinates() - truth.coordinates();
     error[2] = geometry::wrapAngle(error[2]);
     scan.has_pose = true;
+    scan.error = error;
+    scan.covariance = update->pose.covariance;
     scan.position_error = error.head<2>().norm();
     scan.heading_error = std::abs(error[2]);
     scan.nees = error.dot(update->pose.covariance.inverse() * error);

@@ -31,7 +31,8 @@ struct DriveSetup {
   geometry::Pose2 T_base_sensor;
   double height = 0.0;  // of the scanner [m]
   simulation::RobotConfig robot;
-  double seconds = 0.0;
+  double begin = 0.0;    // time at its start [s]
+  double seconds = 0.0;  // that it takes
 };
 
 inline RecordedDrive recordDrive(const DriveSetup& setup, std::uint64_t seed) {
@@ -41,15 +42,17 @@ inline RecordedDrive recordDrive(const DriveSetup& setup, std::uint64_t seed) {
   mounting.z = setup.height;
   simulation.carrier().addScanner(setup.scanner, mounting);
   simulation.carrier().follow(setup.path);
+  const auto begin = static_cast<std::int64_t>(setup.begin * 1e9);
   RecordedDrive drive;
   while (simulation.time() < static_cast<std::int64_t>(setup.seconds * 1e9)) {
     simulation::Outputs outputs = simulation.step();
-    drive.truth.add(simulation.time(), simulation.robot().T_map_base());
+    drive.truth.add(begin + simulation.time(), simulation.robot().T_map_base());
     for (const simulation::ReportedState& state : outputs.states) {
-      drive.odometry.push_back({state.stamp, state.pose.mean});
+      drive.odometry.push_back({begin + state.stamp, state.pose.mean});
     }
     for (simulation::FinishedSweep& sweep : outputs.sweeps) {
-      drive.sweeps.push_back({std::move(sweep.scan), simulation.time()});
+      sweep.scan.stamp += begin;
+      drive.sweeps.push_back({std::move(sweep.scan), begin + simulation.time()});
     }
   }
   return drive;

@@ -40,9 +40,9 @@ inline void printKidnap(TwoRoomRuns& runs, int seeds) {
   double wrong = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const RecordedDrive& other = runs.eastern(seed);
-    const TwoRoomRun run{"kidnap",
-                         [&](RecordedDrive& drive, auto) { kidnap(drive, other, kKidnapTime); },
-                         startAt(kStart)};
+    const TwoRoomRun run{
+        "kidnap", [&](RecordedDrive& drive, auto) { moveUnnoticed(drive, other, kKidnapTime); },
+        startAt(kStart)};
     const auto scans = runs.trackedBy(run, seed);
     recovered = std::max(recovered, rightForGoodAfter(scans, kKidnapTime));
     wrong = std::max(wrong, claimedWrong(scans));
@@ -80,8 +80,9 @@ inline void printTurns(TwoRoomRuns& runs) {
       const std::string name = fmt::format("turn{}{}", degrees, clutter > 0.0 ? "_clutter50" : "");
       const TwoRoomRun run{name,
                            [&](RecordedDrive& drive, std::uint64_t seed) {
-                             const Eigen::Vector3d missed(0.0, 0.0, geometry::radians(-degrees));
-                             addFalseMotion(drive, kHalfTime, 0.0, missed);
+                             const double angle = geometry::radians(degrees);
+                             moveUnnoticed(drive, runs.turned(static_cast<int>(seed), angle),
+                                           kHalfTime);
                              if (clutter > 0.0) addSectorClutter(drive, clutter, seed);
                            },
                            startAt(kStart)};

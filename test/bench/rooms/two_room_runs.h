@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "bench/rooms/disturbances.h"
 #include "bench/rooms/room_figures.h"
 #include "two_rooms.h"
@@ -64,6 +66,19 @@ inline world::RoomMap twoRoomsOff(std::uint64_t seed) {
   return map;
 }
 
+/// The drive without anything going wrong.
+inline DriveSetup twoRoomsSetup() {
+  DriveSetup setup;
+  setup.world = world::World::of(test::twoRooms());
+  setup.start = kStart;
+  setup.path = simulation::Path(config::Node::parse(test::kTwoRoomsPath, "path"));
+  setup.scanner = test::scannerProfile({});
+  setup.T_base_sensor = {0.1, 0.0, 0.0};
+  setup.robot = test::robotConfig();
+  setup.seconds = test::kTwoRoomsSeconds;
+  return setup;
+}
+
 class TwoRoomRuns {
  public:
   explicit TwoRoomRuns(int seeds) : seeds_(seeds) {}
@@ -81,7 +96,7 @@ class TwoRoomRuns {
     if (run.map_is_exact) config.wall.position_sigma = config.wall.direction_sigma = 0.0;
     tracking::RoomTracker tracker(config, test::twoRooms());
     if (run.start) tracker.setPose(*run.start);
-    auto scans = Playback(tracker, kMounting).play(drive);
+    auto scans = Playback(tracker, twoRoomsSetup().T_base_sensor).play(drive);
     calibration_.add(scans, kScanPeriod);
     return scans;
   }
@@ -95,10 +110,30 @@ class TwoRoomRuns {
                                   {6, -2}, {8, -2}, {8, 1},  {6, 0.5}, {2, 0.5}, {-2, 2}};
     });
   }
+  /// The drive on from half time, the robot having been turned on the spot by an angle [rad].
+  const RecordedDrive& turned(int seed, double angle) {
+    const RecordedDrive& before = recorded("clean", seed, [](DriveSetup&) {});
+    const auto stamp = static_cast<std::int64_t>(kHalfTime * 1e9);
+    return recorded(fmt::format("turned {:.3f}", angle), seed, [&](DriveSetup& setup) {
+      setup.begin = kHalfTime;
+      setup.seconds = test::kTwoRoomsSeconds - kHalfTime;
+      setup.start = before.truth.at(stamp).value() * geometry::Pose2(0.0, 0.0, angle);
+      dropPassed(before, stamp, setup.path);
+    });
+  }
   const QualityCalibration& calibration() const { return calibration_; }
 
  private:
-  inline static const geometry::Pose2 kMounting{0.1, 0.0, 0.0};
+  // Leaves those waypoints that a drive has still before it.
+  static void dropPassed(const RecordedDrive& drive, std::int64_t stamp, simulation::Path& path) {
+    auto next = path.waypoints_map.begin();
+    for (std::int64_t time = 0; time < stamp; time += 20'000'000) {
+      const auto pose = drive.truth.at(time);
+      const bool is_there = pose && (pose->translation() - *next).norm() < path.tolerance + 0.01;
+      if (is_there) ++next;
+    }
+    path.waypoints_map.erase(path.waypoints_map.begin(), next);
+  }
 
   const RecordedDrive& driveOf(const TwoRoomRun& run, int seed) {
     if (!run.map_is_off && !run.stands) return recorded("clean", seed, [](DriveSetup&) {});
@@ -116,14 +151,7 @@ class TwoRoomRuns {
                                 const std::function<void(DriveSetup&)>& change) {
     const auto found = drives_.find({key, seed});
     if (found != drives_.end()) return found->second;
-    DriveSetup setup;
-    setup.world = world::World::of(test::twoRooms());
-    setup.start = kStart;
-    setup.path = simulation::Path(config::Node::parse(test::kTwoRoomsPath, "path"));
-    setup.scanner = test::scannerProfile({});
-    setup.T_base_sensor = kMounting;
-    setup.robot = test::robotConfig();
-    setup.seconds = test::kTwoRoomsSeconds;
+    DriveSetup setup = twoRoomsSetup();
     change(setup);
     return drives_
         .emplace(std::make_pair(key, seed), recordDrive(setup, static_cast<std::uint64_t>(seed)))

@@ -1,0 +1,109 @@
+#include "sightline/tracking/explanation.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "sightline/tracking/jamb_finder.h"
+
+namespace sightline::tracking {
+
+namespace {
+
+// The best-seen wall first: it leaves the others the least room for error.
+std::vector<std::size_t> byBeams(const std::vector<WallUpdate>& walls) {
+  std::vector<std::size_t> order(walls.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return walls[a].acceptedBeams() > walls[b].acceptedBeams();
+  });
+  return order;
+}
+
+}  // namespace
+
+std::vector<world::WallIndex> wallsInSight(const TrackingContext& context, std::size_t room) {
+  std::vector<std::size_t> rooms{room};
+  for (const world::Door& door : context.map.doors()) {
+    for (const std::size_t side : {0U, 1U}) {
+      const std::size_t other = door.rooms[side];
+      const bool leads_there = context.config.neighbours && door.rooms[1 - side] == room;
+      if (leads_there && std::find(rooms.begin(), rooms.end(), other) == rooms.end()) {
+        rooms.push_back(other);
+      }
+    }
+  }
+  std::vector<world::WallIndex> walls;
+  for (const std::size_t seen : rooms) {
+    for (std::size_t wall = 0; wall < context.map.rooms()[seen].walls.size(); ++wall) {
+      walls.push_back({seen, wall});
+    }
+  }
+  return walls;
+}
+
+void applyWalls(const TrackingContext& context, PoseFilter& filter,
+                std::vector<WallUpdate>& walls) {
+  for (const std::size_t i : byBeams(walls)) {
+    WallUpdate& wall = walls[i];
+    if (!wall.fit) continue;
+    const world::WallIndex index{wall.room, wall.wall};
+    const geometry::Segment& expected = context.map.wall(index).segment;
+    const auto innovation =
+        filter.innovation(wall.fit->line, expected.line(), wall.fit->motion_jacobian,
+                          WallError(index, expected, context.config.wall));
+    wall.innovation = WallInnovation{innovation.value, innovation.nis};
+    if (innovation.nis <= context.config.wall.max_nis) {
+      filter.update(innovation);
+    } else {
+      wall.refusal = WallRefusal::kOutsideGate;
+    }
+  }
+}
+
+void applyJambs(const TrackingContext& context, std::size_t room, const Sweep& sweep,
+                Explanation& explanation) {
+  constexpr double kMostNis = 9.0;
+  if (!context.config.doors.are_landmarks) return;
+  PoseFilter& filter = explanation.filter;
+  for (const SeenJamb& seen : findJambs(context.config, filter, context.map, room, sweep)) {
+    const auto innovation =
+        filter.innovation(seen.line, seen.jamb.lineIn(context.map), LineBySweepError::Zero(),
+                          seen.jamb.errorIn(context.config.doors));
+    const bool is_accepted = innovation.nis <= kMostNis;
+    explanation.jambs.push_back(
+        {seen.jamb.door, seen.jamb.room, innovation.value[0], innovation.nis, is_accepted});
+    if (is_accepted) filter.update(innovation);
+  }
+}
+
+double supportOf(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
+  return static_cast<double>(agreement.on_wall) * weightOf(agreement, geometry);
+}
+
+double unusedShare(const Explanation& explanation) {
+  double used = 0.0;
+  for (const WallUpdate& wall : explanation.walls) {
+    if (wall.accepted()) used += static_cast<double>(wall.acceptedBeams());
+  }
+  const auto met = static_cast<double>(explanation.agreement.on_wall);
+  return met > 0.0 ? std::max(0.0, 1.0 - used / met) : 0.0;
+}
+
+bool areWallsRefused(const std::vector<WallUpdate>& walls) {
+  std::size_t accepted = 0;
+  std::size_t refused = 0;
+  for (const WallUpdate& wall : walls) {
+    (wall.accepted() ? accepted : refused) += wall.acceptedBeams();
+  }
+  return refused > accepted;
+}
+
+double nisOf(const std::vector<WallUpdate>& walls) {
+  double nis = 0.0;
+  for (const WallUpdate& wall : walls) {
+    if (wall.accepted() && wall.innovation) nis += wall.innovation->nis;
+  }
+  return nis;
+}
+
+}  // namespace sightline::tracking
