@@ -183,7 +183,7 @@ Explanation PoseTrack::explain(const TrackingContext& context, const TrackerInpu
   if (coasting_ && !distrusted_at_) {
     keepBetter(best, lookFrom(*coasting_, *coasting_), kPriors.coasting, Motion::kCoasting);
   }
-  if (!is_contradicted) return best;
+  if (!is_contradicted || !tellsPlacesApart(*input.scan.geometry())) return best;
   PoseFilter slipped = coasting_ && distrusted_at_ ? *coasting_ : filter_;
   slipped.inflate(context.config.slip.position_sigma, context.config.slip.heading_sigma);
   const double log_prior = distrusted_at_ ? kPriors.slip_again : kPriors.slip;

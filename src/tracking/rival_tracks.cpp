@@ -94,7 +94,8 @@ void RivalTracks::look(const TrackingContext& context, const TrackerInput& input
   search_again_ = is_new ? 1 : std::min(2 * search_again_, kRivals.search_again);
   keys_.add(input);
   weigh(input, is_new);
-  if (!is_confirmed_ || isToBeSearched()) search(context, input);
+  const bool is_searched = !is_confirmed_ || isToBeSearched();
+  if (is_searched && tellsPlacesApart(*input.scan.geometry())) search(context, input);
 }
 
 void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {

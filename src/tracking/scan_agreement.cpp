@@ -30,13 +30,17 @@ constexpr double kThrough = 0.02;
 constexpr BeamModel kRight{0.79, 0.19, kThrough};
 constexpr BeamModel kElsewhere{0.53, 0.19, 0.28};
 constexpr double kIndependent = 0.07;  // angle between beams that tell two things [rad]
+constexpr double kWideField = 1.5;     // field of view that tells places apart [rad]
+
+double fieldOf(const scan::ScanGeometry& geometry) {
+  return std::abs(geometry.angles().back() - geometry.angles().front());
+}
 
 }  // namespace
 
 double weightOf(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
-  const double span = std::abs(geometry.angles().back() - geometry.angles().front());
   const auto beams = static_cast<double>(std::max<std::size_t>(1, agreement.looked_at));
-  return std::min(1.0, span / kIndependent / beams);
+  return std::min(1.0, fieldOf(geometry) / kIndependent / beams);
 }
 
 double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& geometry,
@@ -51,6 +55,10 @@ double logLikelihood(const ScanAgreement& agreement, const scan::ScanGeometry& g
 
 double logOdds(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
   return weightOf(agreement, geometry) * (kRight.logOf(agreement) - kElsewhere.logOf(agreement));
+}
+
+bool tellsPlacesApart(const scan::ScanGeometry& geometry) {
+  return fieldOf(geometry) >= kWideField;
 }
 
 ScanAgreement scanAgreement(const scan::Scan& scan, const geometry::Pose2& T_map_sensor,

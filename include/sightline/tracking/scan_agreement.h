@@ -58,4 +58,9 @@ double weightOf(const ScanAgreement& agreement, const scan::ScanGeometry& geomet
 ScanAgreement scanAgreement(const scan::Scan& scan, const geometry::Pose2& T_map_sensor,
                             const world::RoomView& view, double tolerance, std::size_t stride = 1);
 
+/// Whether the field of view is wide enough for one scan to tell places of a map apart. In a
+/// narrower one every corner of a room looks alike, and so does furniture: such a scan corrects a
+/// pose, but does not tell that the robot is elsewhere.
+bool tellsPlacesApart(const scan::ScanGeometry& geometry);
+
 }  // namespace sightline::tracking
