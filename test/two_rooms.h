@@ -49,7 +49,6 @@ struct TwoRoomsScenario {
   bool utm30lx = false;          // 1081 beams over 270° at 40 Hz instead
   bool full_circle = false;      // 361 beams over 360° in 0.1 s, of a scanner on a turret
   double turret_rate = 0.0;      // [rad/s]
-  bool narrow = false;           // 256 beams over 40°, 2.5 m, as the sensor of pears
 };
 
 struct PoseSample {
@@ -72,13 +71,6 @@ inline simulation::ScannerProfile scannerProfile(const TwoRoomsScenario& scenari
   profile.range_max = 8.0;
   profile.rate = 10.0;
   profile.noise.sigma = 0.01;
-  if (scenario.narrow) {
-    profile.beams = 256;
-    profile.angle_min = geometry::radians(-20.0);
-    profile.angle_max = geometry::radians(20.0);
-    profile.range_max = 2.5;
-    profile.revolution = 0.1;
-  }
   if (scenario.full_circle) {
     profile.angle_min = -geometry::kPi;
     profile.angle_max = geometry::radians(179.0);

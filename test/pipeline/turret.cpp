@@ -1,5 +1,4 @@
 // A scanner on a turret under the room tracker, against the same scanner fixed to the robot.
-#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -40,23 +39,6 @@ TEST(TurretStatistics, TracksAsWellAsAFixedScanner) {
   EXPECT_NEAR(turning.rmse, fixed.rmse, 0.1 * fixed.rmse);
   EXPECT_GT(turning.nees, 2.5);
   EXPECT_LT(turning.nees, 3.5);
-}
-
-// Of a field of 40° and 2.5 m, many places look alike. It must not send the robot there.
-TEST(TurretStatistics, NarrowFieldIsNotLed) {
-  for (const double rate : {0.0, geometry::radians(45.0)}) {
-    test::TwoRoomsScenario scenario;
-    scenario.narrow = true;
-    scenario.turret_rate = rate;
-    for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      test::TwoRoomsDrive drive(scenario, seed, test::trackerConfig(), scan::NoiseKind::kConstant);
-      double largest = 0.0;
-      for (const test::PoseSample& sample : drive.samples()) {
-        largest = std::max(largest, sample.position_error);
-      }
-      EXPECT_LT(largest, 0.6) << rate << " rad/s, seed " << seed;
-    }
-  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/gaze/drive.h"
 #include "bench/gaze/feature_score.h"
+#include "simulated_drive.h"
 
 namespace sightline::bench {
 
@@ -65,8 +65,8 @@ inline FeatureScore featuresOf(const FeatureScenario& scenario, std::uint64_t se
     config.features.odometry = robot.odometry;
     config.input.feed.sweep_noise = robot.odometry;
   }
-  Drive drive(world, robot, {1.0 + 0.05 * static_cast<double>(seed % 7), 1.2, 0.0}, seed, config,
-              {true, false, false, true});
+  test::SimulatedDrive drive(world, robot, {1.0 + 0.05 * static_cast<double>(seed % 7), 1.2, 0.0},
+                             seed, config, {true, false, false, true});
   simulation::ScannerProfile profile;
   profile.rate = 10.0;
   drive.addScanner(profile);

@@ -143,7 +143,7 @@ class FixationRun {
 
   static constexpr double kFound = 2.0;
   FixationCase case_;
-  Drive drive_;
+  test::SimulatedDrive drive_;
   GazeRig rig_;
   FixationResult result_;
   bool is_found_ = false;

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "bench/gaze/drive.h"
 #include "sightline/gaze/gaze_control.h"
+#include "simulated_drive.h"
 
 namespace sightline::bench {
 
@@ -26,7 +26,7 @@ inline void coarsenHead(motion::RangeScan& scan, std::mt19937_64& random) {
 /// odometry at 50 Hz, features and poses as they are found.
 class GazeRig {
  public:
-  GazeRig(Drive& drive, const gaze::GazeConfig& config, std::uint64_t seed)
+  GazeRig(test::SimulatedDrive& drive, const gaze::GazeConfig& config, std::uint64_t seed)
       : drive_(drive), gaze_(config), random_(seed) {
     simulation::Mounting mounting;
     mounting.x = 0.1;
@@ -40,7 +40,7 @@ class GazeRig {
   gaze::GazeControl& gaze() { return gaze_; }
   const geometry::Pose2& T_base_mount() const { return T_base_mount_; }
 
-  void step(const Drive::OnScan& on_scan) {
+  void step(const test::SimulatedDrive::OnScan& on_scan) {
     drive_.step([&](const pipeline::Estimates& estimates, const geometry::Pose2& T_map_base) {
       tell(estimates);
       on_scan(estimates, T_map_base);
@@ -49,7 +49,7 @@ class GazeRig {
     if (now % 20'000'000 != 0) return;
     if (const auto command = gaze_.decide(now)) drive_.carrier().commandHead(0, *command);
   }
-  void run(double seconds, const Drive::OnScan& on_scan) {
+  void run(double seconds, const test::SimulatedDrive::OnScan& on_scan) {
     while (drive_.time() < seconds) step(on_scan);
   }
 
@@ -76,7 +76,7 @@ class GazeRig {
     if (estimates.rooms) gaze_.takePose(stamp, estimates.rooms->pose);
   }
 
-  Drive& drive_;
+  test::SimulatedDrive& drive_;
   gaze::GazeControl gaze_;
   std::mt19937_64 random_;
   geometry::Pose2 T_base_mount_{0.1, 0.0, 0.0};

@@ -65,8 +65,8 @@ inline PoseSpread spreadOf(const GazePlace& place, const GazeWay& way, std::uint
   const auto world = world::World::readFile(std::string(SIGHTLINE_SOURCE_DIR "/config/worlds/") +
                                             place.name + ".yaml");
   const auto config = trackingConfig(place);
-  Drive drive(world, simulation::RobotConfig{}, place.start, seed, config,
-              {false, true, false, false});
+  test::SimulatedDrive drive(world, simulation::RobotConfig{}, place.start, seed, config,
+                             {false, true, false, false});
   gaze::GazeConfig gaze;
   gaze.mode = way.mode;
   gaze.odometry = config.rooms->tracker.odometry;

@@ -40,8 +40,8 @@ inline PoseSpread turretSpread(const GazePlace& place, gaze::GazeMode mode, std:
   config.rooms->initial_pose = place.start;
   config.rooms->initial_sigma = {0.05, 0.02};
   const auto world = world::World::readFile(shipped + "worlds/" + place.name + ".yaml");
-  Drive drive(world, simulation::RobotConfig{}, place.start, seed, config,
-              {false, true, false, false});
+  test::SimulatedDrive drive(world, simulation::RobotConfig{}, place.start, seed, config,
+                             {false, true, false, false});
   simulation::Mounting mounting;
   mounting.x = 0.1;
   mounting.z = 0.4;

@@ -11,16 +11,16 @@
 #include "sightline/pipeline/scan_feed.h"
 #include "sightline/simulation/simulation.h"
 
-namespace sightline::bench {
+namespace sightline::test {
 
 /// A simulated robot with one sensor, through the feed and the estimators as in a node.
-class Drive {
+class SimulatedDrive {
  public:
   using OnScan = std::function<void(const pipeline::Estimates&, const geometry::Pose2& T_map_base)>;
 
-  Drive(world::World world, const simulation::RobotConfig& robot, const geometry::Pose2& start,
-        std::uint64_t seed, const pipeline::EstimatorsConfig& config,
-        const pipeline::EstimatorSet& set)
+  SimulatedDrive(world::World world, const simulation::RobotConfig& robot,
+                 const geometry::Pose2& start, std::uint64_t seed,
+                 const pipeline::EstimatorsConfig& config, const pipeline::EstimatorSet& set)
       : simulation_(std::move(world), robot, start, seed),
         feed_(config.input.feed, {}, {}, transforms_),
         estimators_(config, set) {
@@ -92,7 +92,7 @@ class Drive {
 
   simulation::Simulation simulation_;
   bool has_turret_ = false;
-  test::ScriptedTransforms transforms_;
+  ScriptedTransforms transforms_;
   pipeline::ScanFeed feed_;
   pipeline::Estimators estimators_;
   motion::PoseHistory truth_;
@@ -100,4 +100,4 @@ class Drive {
   std::function<void(const simulation::Outputs&)> on_outputs_;
 };
 
-}  // namespace sightline::bench
+}  // namespace sightline::test
