@@ -16,6 +16,7 @@ constexpr struct {
   double most_gap = 1.4;
   int least_passes = 6;  // rays through each bin of it
   double passes_per_hit = 6.0;
+  std::int64_t pause = 60'000'000'000;  // after which the path is another one [ns]
   double jamb_sigma = 0.03;  // of the edge of a gap: a bin, and the door that stands there [m]
 } kDoors{};
 
@@ -170,7 +171,10 @@ std::vector<Crossing> crossingsOf(const std::vector<geometry::StampedPose2>& pat
   std::vector<Crossing> crossings;
   std::optional<std::size_t> room;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  std::int64_t before = 0;
   for (const geometry::StampedPose2& point : path) {
+    if (point.stamp - before > kDoors.pause) room.reset();
+    before = point.stamp;
     const Eigen::Vector2d here = point.pose.translation();
     if (room && rooms[*room].contains(here)) {
       last = here;

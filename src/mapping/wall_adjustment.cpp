@@ -71,7 +71,11 @@ class WallProblem {
   WallProblem(const std::vector<KeyScan>& keys, const AdjustedPath& path,
               const std::vector<RoomOutline>& rooms, const std::vector<RoomOutline>& found)
       : path_(keys, path.keys), rooms_(rooms) {
-    path_.addSteps();
+    if (path.is_exact) {
+      path_.hold();
+    } else {
+      path_.addSteps();
+    }
     for (const Relation& relation : path.relations) path_.add(relation);
     for (std::size_t r = 0; r < rooms.size(); ++r) addRoom(rooms[r], found[r]);
   }

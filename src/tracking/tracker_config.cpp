@@ -35,6 +35,14 @@ void HoughConfig::visit(config::FieldVisitor& visitor) {
        "where a gate would hold more than 200"});
 }
 
+WallConfig WallConfig::of(const world::Wall& wall) const {
+  WallConfig config = *this;
+  if (!wall.sigma) return config;
+  config.position_sigma = wall.sigma->position;
+  config.direction_sigma = wall.sigma->direction;
+  return config;
+}
+
 void WallConfig::visit(config::FieldVisitor& visitor) {
   visitor.integer("min_beams", min_beams,
                   {"beams", {3, 1000}, "fewest beams that make a wall hypothesis"});

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "sightline/geometry/pose2.h"
 #include "sightline/geometry/segment.h"
 #include "sightline/world/room_map.h"
 
@@ -39,5 +42,24 @@ struct RoomOutline {
 /// A rectangle: its middle, its turn and its size.
 RoomOutline rectangleOutline(const Eigen::Vector2d& middle_map, double turn,
                              const Eigen::Vector2d& size);
+
+/// A rectangle by its middle and turn in the map, and its size along its own axes [m].
+struct Rectangle {
+  geometry::Pose2 pose;
+  Eigen::Vector2d size;
+};
+
+/// The rectangle that an outline is, to a centimetre; nothing where it is none.
+std::optional<Rectangle> rectangleOf(const RoomOutline& room);
+
+/// How well a side is known; of a rectangle, whose sides are written as square, the turn that this
+/// leaves out is part of it.
+world::WallSigma sigmaOf(const RoomOutline& room, std::size_t side);
+
+/// The outline of a room of a map, in which neighbours meet at its corners.
+RoomOutline outlineOf(const world::Room& room);
+
+/// The outline in another frame.
+RoomOutline operator*(const geometry::Pose2& T_target_source, RoomOutline room);
 
 }  // namespace sightline::mapping
