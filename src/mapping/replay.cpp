@@ -9,10 +9,10 @@ namespace sightline::mapping {
 namespace {
 
 constexpr struct {
-  double position = 0.5;       // from the path that is kept [m]
-  double heading = 0.1745;     // 10° [rad]
-  double least_right = 0.98;   // share of the scans that a map has to keep
-  double longest_lost = 10.0;  // [s]
+  double position = 0.25;     // from the path that is kept: more, and a robot meets door frames [m]
+  double heading = 0.1745;    // 10° [rad]
+  double least_right = 0.98;  // share of the scans that a map has to keep
+  double longest_lost = 3.0;  // [s]
   double shortest_lost = 1.0;  // place that is worth a word [s]
   std::int64_t gap = 1'000'000'000;
 } kReplay{};

@@ -22,7 +22,8 @@ constexpr struct {
   double passage_width = 0.9;    // of a room made where the path leads over a gap [m]
   double shortest_passage = 0.6;
   double longest_passage = 6.0;
-  double doorway = 1.2;  // way between two rooms through one door [m]
+  double doorway = 1.2;     // way between two rooms through one door [m]
+  double least_wall = 3.0;  // of all rooms together: less is no building [m]
 } kRooms{};
 
 // Number of crossings between rooms that are too far apart for a door.
@@ -92,6 +93,16 @@ double shareInside(const std::vector<geometry::StampedPose2>& path,
   return path.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(path.size());
 }
 
+double wallOf(const std::vector<RoomOutline>& rooms) {
+  double length = 0.0;
+  for (const RoomOutline& room : rooms) {
+    for (const auto& spans : room.spans) {
+      for (const world::Span& span : spans) length += span.to - span.from;
+    }
+  }
+  return length;
+}
+
 // Spans of the walls, and doors.
 void findOpenings(const std::vector<KeyScan>& keys, FittedRooms& fitted) {
   const auto evidence = gatherEvidence(keys, fitted.path.keys, fitted.rooms);
@@ -142,6 +153,11 @@ void fitAbout(const std::vector<KeyScan>& keys, const Poses& adjusted, const Pro
   sortByPath(fitted.rooms, fitted.poses);
   nameRooms(fitted.rooms);
   findOpenings(keys, fitted);
+  if (wallOf(fitted.rooms) < kRooms.least_wall) {
+    fitted.rooms.clear();
+    fitted.doors.clear();
+    fitted.missing_doors.clear();
+  }
   fitted.inside = shareInside(fitted.poses, fitted.rooms);
   report(1.0);
 }
@@ -172,7 +188,14 @@ FittedRooms fitRooms(const GridSurvey& survey, const Progress& progress) {
   fitAbout(
       survey.keys, [&] { return survey.path; }, reportTo(progress), fitted);
   for (RoomOutline& room : fitted.rooms) {
-    for (SideLine& side : room.sides) side.covariance(0, 0) += survey.cell * survey.cell / 12.0;
+    for (std::size_t i = 0; i < room.sides.size(); ++i) {
+      // A wall in one row of cells, and one that leaves it at either end.
+      const double variance = survey.cell * survey.cell / 12.0;
+      const double length = std::max(survey.cell, room.side(i).length());
+      room.sides[i].covariance += Eigen::Vector2d(variance, 2.0 * variance / (length * length))
+                                      .asDiagonal()
+                                      .toDenseMatrix();
+    }
   }
   return fitted;
 }

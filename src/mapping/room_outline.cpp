@@ -75,7 +75,10 @@ RoomOutline rectangleOutline(const Eigen::Vector2d& middle_map, double turn,
   for (int i = 0; i < 4; ++i) {  // south, east, north, west
     const double angle = geometry::wrapAngle(turn + 0.5 * geometry::kPi * (i + 1));
     const double half = 0.5 * (i % 2 == 0 ? size.y() : size.x());
-    room.sides.push_back({angle, -half, Eigen::Matrix2d::Zero(), false});
+    SideLine side;
+    side.angle = angle;
+    side.distance = -half;
+    room.sides.push_back(side);
   }
   room.spans.resize(4);
   return room;
@@ -98,12 +101,14 @@ world::WallSigma sigmaOf(const RoomOutline& room, std::size_t i) {
   const double right = 0.5 * geometry::kPi * (static_cast<double>(i) + 1.0);
   const double bend =
       rectangle ? geometry::wrapAngle(room.sides[i].angle - rectangle->pose.theta() - right) : 0.0;
-  const Eigen::Matrix2d& covariance = room.sides[i].covariance;
+  const SideLine& side = room.sides[i];
+  const double position = std::hypot(std::sqrt(side.covariance(0, 0)), side.unevenness[0]);
+  const double direction = std::hypot(std::sqrt(side.covariance(1, 1)), side.unevenness[1], bend);
   const auto within = [](const config::Range& range, double value) {
     return std::clamp(value, range.min, range.max);
   };
-  return {within(world::kWallPositionSigmas, std::sqrt(covariance(0, 0))),
-          within(world::kWallDirectionSigmas, std::hypot(std::sqrt(covariance(1, 1)), bend))};
+  return {within(world::kWallPositionSigmas, position),
+          within(world::kWallDirectionSigmas, direction)};
 }
 
 RoomOutline outlineOf(const world::Room& room) {

@@ -92,7 +92,7 @@ void printWalls(mapping::Replay& replay) {
 
 int judge(mapping::Replay& replay) {
   std::printf(
-      "replay: %.1f %% of %zu scans within 0.5 m and 10 deg of the path, %.3f m on average, "
+      "replay: %.1f %% of %zu scans within 0.25 m and 10 deg of the path, %.3f m on average, "
       "%.2f m at most\n",
       100.0 * replay.rightShare(), replay.scans(), replay.meanDifference(), replay.maxDifference());
   for (const mapping::LostPlace& place : replay.lostPlaces()) {

@@ -36,8 +36,8 @@ class GridRoomsTest : public testing::TestWithParam<double> {};
 TEST_P(GridRoomsTest, AreThoseThatWereDrawn) {
   const world::RoomMap truth(config::Node::parse(kGridFloor, "rooms"));
   const FittedRooms fitted = fitRooms(surveyGrid(gridOf(truth, GetParam()), kMiddleOfCell), {});
-  const auto errors =
-      test::FloorComparison(fitted, truth, geometry::Pose2(0.0, 0.0, -GetParam())).errors();
+  const auto errors = test::FloorComparison(fitted, truth, geometry::Pose2(0.0, 0.0, -GetParam()))
+                          .errors(test::FloorComparison::Frame::kGiven);
   EXPECT_EQ(errors.found, 3U);
   EXPECT_EQ(errors.invented, 0U);
   EXPECT_EQ(errors.unmatched_sides, 0U);
@@ -56,7 +56,8 @@ TEST(GridRooms, AcrossTheCellsAreNearer) {
   const world::RoomMap truth(
       config::Node::parse("rooms:\n  hall: {size: [6.0, 4.0], pose: [1.0, 2.0, 0.12]}\n", "rooms"));
   const FittedRooms fitted = fitRooms(surveyGrid(gridOf(truth, 0.0), kMiddleOfCell), {});
-  const auto errors = test::FloorComparison(fitted, truth, {}).errors();
+  const auto errors =
+      test::FloorComparison(fitted, truth, {}).errors(test::FloorComparison::Frame::kGiven);
   ASSERT_EQ(errors.found, 1U);
   for (const auto& side : errors.sides) {
     EXPECT_LT(std::abs(side.offset), 0.2 * kCell);

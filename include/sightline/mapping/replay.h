@@ -39,12 +39,12 @@ class Replay {
   void finish();
 
   std::size_t scans() const { return scans_; }
-  /// Share of the scans within 0.5 m and 10° of the path.
+  /// Share of the scans within 0.25 m and 10° of the path.
   double rightShare() const;
   double meanDifference() const;  ///< of position, of the scans within [m]
   double maxDifference() const { return most_; }
-  /// Whether the rooms keep the robot: all but 2 % of the scans are right, and no place is lost for
-  /// more than 10 s.
+  /// Whether the rooms keep the robot: all but 2 % of the scans are right, and none of the others
+  /// last longer than 3 s.
   bool isGood() const;
   /// Places that were lost for a second and more, the longest first.
   std::vector<LostPlace> lostPlaces() const;
