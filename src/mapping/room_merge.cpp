@@ -19,9 +19,10 @@ constexpr struct {
   double same = 0.5;     // share of a room that is in rooms that are there
   double apart = 0.12;   // between a room that is cut and the one that it is cut by [m]
   double least_overlap = 0.05;
-  double least_area = 1.6;  // of what is left [m²]
-  double least_size = 0.8;  // [m]
-  double same_door = 0.8;   // doors between the same rooms that are one [m]
+  double least_area = 1.6;     // of what is left [m²]
+  double least_size = 0.8;     // [m]
+  double shortest_span = 0.2;  // [m]
+  double same_door = 0.8;      // doors between the same rooms that are one [m]
 } kMerge{};
 
 void moveTo(const Pose2& T, FittedRooms& fitted) {
@@ -69,6 +70,17 @@ double depthOf(const RoomOutline& other, const SideLine& side, const Eigen::Vect
   return deepest;
 }
 
+// The spans of a side that begins later by so much, and is so long.
+std::vector<world::Span> cutSpans(const std::vector<world::Span>& spans, double later,
+                                  double length) {
+  std::vector<world::Span> left;
+  for (const world::Span& span : spans) {
+    const world::Span cut{std::max(0.0, span.from - later), std::min(length, span.to - later)};
+    if (cut.to - cut.from >= kMerge.shortest_span) left.push_back(cut);
+  }
+  return left;
+}
+
 // The room without the part that another room has, its sides being moved in as little as is enough;
 // nothing where too little is left.
 std::optional<RoomOutline> without(const RoomOutline& room, const RoomOutline& other) {
@@ -76,10 +88,14 @@ std::optional<RoomOutline> without(const RoomOutline& room, const RoomOutline& o
   std::optional<RoomOutline> best;
   for (std::size_t i = 0; i < room.sides.size(); ++i) {
     RoomOutline cut = room;
+    const std::size_t next = (i + 1) % room.sides.size();
+    const std::size_t before = (i + room.sides.size() - 1) % room.sides.size();
     cut.sides[i].distance += depthOf(other, room.sides[i], room.anchor) + kMerge.apart;
-    cut.spans[i].clear();
     cut.sides[i].is_seen = false;
-    const double width = cut.side((i + 1) % cut.sides.size()).length();
+    const double width = cut.side(next).length();
+    cut.spans[i].clear();
+    cut.spans[next] = cutSpans(room.spans[next], room.side(next).length() - width, width);
+    cut.spans[before] = cutSpans(room.spans[before], 0.0, cut.side(before).length());
     const bool turned = cut.side(i).direction().dot(room.side(i).direction()) < 0.0 ||
                         cut.area() < kMerge.least_area || width < kMerge.least_size ||
                         cut.area() > room.area();

@@ -101,9 +101,9 @@ world::WallSigma sigmaOf(const RoomOutline& room, std::size_t i) {
   const double right = 0.5 * geometry::kPi * (static_cast<double>(i) + 1.0);
   const double bend =
       rectangle ? geometry::wrapAngle(room.sides[i].angle - rectangle->pose.theta() - right) : 0.0;
-  const SideLine& side = room.sides[i];
-  const double position = std::hypot(std::sqrt(side.covariance(0, 0)), side.unevenness[0]);
-  const double direction = std::hypot(std::sqrt(side.covariance(1, 1)), side.unevenness[1], bend);
+  const Eigen::Matrix2d& covariance = room.sides[i].covariance;
+  const double position = std::sqrt(covariance(0, 0));
+  const double direction = std::hypot(std::sqrt(covariance(1, 1)), bend);
   const auto within = [](const config::Range& range, double value) {
     return std::clamp(value, range.min, range.max);
   };

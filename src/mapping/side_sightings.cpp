@@ -39,9 +39,8 @@ std::optional<SideSighting> conclude(const PointSums& sums) {
   const Eigen::Vector2d along(std::cos(turn), std::sin(turn));
   const double spread = std::sqrt(std::max(0.0, along.dot(scatter * along)));
   if (spread * std::sqrt(12.0) < kSightings.shortest) return std::nullopt;
-  const double noise = std::sqrt(2.0 / sums.weight);
-  const double sigma = std::hypot(noise, kSightings.roughness);
-  return SideSighting{0, 0, 0, {mean - spread * along, mean + spread * along}, sigma, noise};
+  const double sigma = std::sqrt(2.0 / sums.weight + kSightings.roughness * kSightings.roughness);
+  return SideSighting{0, 0, 0, {mean - spread * along, mean + spread * along}, sigma};
 }
 
 }  // namespace

@@ -20,7 +20,6 @@ struct SideSighting {
   std::size_t side;
   Eigen::Vector2d ends_base[2];
   double sigma;  // of either end across the side [m]
-  double noise;  // the part of it that is of the scanner [m]
 };
 
 /// Finds what key scans see of the sides of rooms.

@@ -11,7 +11,6 @@
 #include "path_problem.h"
 #include "pose_factors.h"
 #include "side_sightings.h"
-#include "wall_unevenness.h"
 
 namespace sightline::mapping {
 
@@ -218,9 +217,7 @@ void adjustWalls(const std::vector<KeyScan>& keys, AdjustedPath& path,
     for (const SideSighting& sighting : sightings) problem.add(sighting);
     problem.solve();
     problem.store(path, rooms);
-    if (gate != *std::rbegin(kWalls.gates)) continue;
-    problem.storeCovariances(rooms);
-    measureUnevenness(sightings, path.keys, rooms);
+    if (gate == *std::rbegin(kWalls.gates)) problem.storeCovariances(rooms);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "sightline/tracking/tracker_config.h"
 
+#include <cmath>
+
 namespace sightline::tracking {
 
 namespace {
@@ -38,8 +40,8 @@ void HoughConfig::visit(config::FieldVisitor& visitor) {
 WallConfig WallConfig::of(const world::Wall& wall) const {
   WallConfig config = *this;
   if (!wall.sigma) return config;
-  config.position_sigma = wall.sigma->position;
-  config.direction_sigma = wall.sigma->direction;
+  config.position_sigma = std::hypot(position_sigma, wall.sigma->position);
+  config.direction_sigma = std::hypot(direction_sigma, wall.sigma->direction);
   return config;
 }
 

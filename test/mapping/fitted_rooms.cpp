@@ -60,7 +60,7 @@ TEST_F(FittedRoomsTest, KnowHowCertainTheirSidesAre) {
   for (const RoomOutline& room : fitted_.rooms) {
     for (const SideLine& side : room.sides) {
       EXPECT_TRUE(side.is_seen);
-      EXPECT_GT(side.covariance(0, 0), 1e-7);
+      EXPECT_GT(side.covariance(0, 0), 1e-8);
       EXPECT_LT(side.covariance(0, 0), 0.02 * 0.02);
       EXPECT_GT(side.covariance.determinant(), 0.0);
     }
@@ -123,7 +123,7 @@ TEST_F(FittedRoomsTest, TellHowWellATrackerKnowsTheirWalls) {
   for (const world::Room& room : map.rooms()) {
     for (const world::Wall& wall : room.walls) {
       ASSERT_TRUE(wall.sigma) << room.name << ' ' << wall.name;
-      EXPECT_GT(wall.sigma->position, 0.0005);
+      EXPECT_GT(wall.sigma->position, 0.0001);
       EXPECT_LT(wall.sigma->position, 0.01);
     }
   }

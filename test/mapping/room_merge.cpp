@@ -103,8 +103,13 @@ TEST(MergeRooms, KeepsTheNamesOfOthers) {
 
 TEST(MergeRooms, OnlyThePartThatIsNewComesIn) {
   const world::RoomMap kept = mapOf(kKept);
-  const world::RoomMap longer =
-      mapOf("rooms:\n  a: {size: [4.0, 3.0]}\n  b: {size: [7.0, 3.0], pose: [5.62, 0.0, 0.0]}\n");
+  const world::RoomMap longer = mapOf(R"(
+rooms:
+  a: {size: [4.0, 3.0]}
+  b: {size: [7.0, 3.0], pose: [5.62, 0.0, 0.0]}
+doors:
+  - {between: [a, b], at: [2.06, 0.2], width: 0.9}
+)");
   const MergedRooms merged = mergeRooms(kept, "kept.yaml", {}, fittedFrom(longer, kFoundMap));
   ASSERT_EQ(merged.map.rooms().size(), 3U);
   const world::Room& added = merged.map.rooms()[2];

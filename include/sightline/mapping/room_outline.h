@@ -22,8 +22,6 @@ struct SideLine {
   /// Of (distance at the middle of the side, angle) [m², m rad, rad²], among the other sides: a
   /// shift and a turn of all together is no error.
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  /// How far what single scans see of it lies from its line [m, rad].
-  Eigen::Vector2d unevenness = Eigen::Vector2d::Zero();
   bool is_seen = false;  ///< whether scans tell where it is
 
   Eigen::Vector2d normal() const { return {std::cos(angle), std::sin(angle)}; }
@@ -55,8 +53,8 @@ struct Rectangle {
 /// The rectangle that an outline is, to a centimetre; nothing where it is none.
 std::optional<Rectangle> rectangleOf(const RoomOutline& room);
 
-/// How well a scan that sees a side knows where it is: its covariance, its unevenness, and of a
-/// rectangle, whose sides are written as square, the turn that this leaves out.
+/// How well the line of a side is known: by its covariance, and of a rectangle, whose sides are
+/// written as square, by the turn that this leaves out.
 world::WallSigma sigmaOf(const RoomOutline& room, std::size_t side);
 
 /// The outline of a room of a map, in which neighbours meet at its corners.
