@@ -56,7 +56,8 @@ inline geometry::Pose2 truthFromFitted(const mapping::FittedRooms& fitted,
 struct SideError {
   double offset = 0.0;  ///< of its middle [m], positive towards the inside, all rooms aligned
   double angle = 0.0;   ///< [rad]
-  double nees = 0.0;    ///< 2 expected, in the frame of the first pose
+  double nees = 0.0;    ///< 2 expected, all rooms aligned
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of offset and angle
   Eigen::Vector3d by_frame = Eigen::Vector3d::Zero();  ///< ∂offset/∂(x, y, θ) of the rooms' frame
 };
 
@@ -68,6 +69,7 @@ struct FloorErrors {
   std::size_t unmatched_sides = 0;  ///< sides with wall on them where there is none
   std::vector<double> door_place;   ///< [m]
   std::vector<double> door_width;
+  std::vector<double> door_nees;  ///< 2 expected
   std::size_t missing_doors = 0;  ///< crossings of the path without one
 };
 
@@ -77,7 +79,10 @@ class FloorComparison {
                   const geometry::Pose2& T_truth_fitted)
       : fitted_(fitted), truth_(truth), T_(T_truth_fitted) {}
 
-  FloorErrors errors() const {
+  /// Whether the map's frame is a choice, as of a recording, or given, as of a grid.
+  enum class Frame { kFree, kGiven };
+
+  FloorErrors errors(Frame frame = Frame::kFree) const {
     FloorErrors errors;
     errors.rooms = truth_.rooms().size();
     for (std::size_t r = 0; r < truth_.rooms().size(); ++r) {
@@ -94,7 +99,8 @@ class FloorComparison {
       for (std::size_t i = 0; i < room.sides.size(); ++i) addSide(room, i, errors);
     }
     addDoors(errors);
-    align(errors.sides);
+    if (frame == Frame::kFree) align(errors.sides);
+    weigh(errors.sides);
     return errors;
   }
 
@@ -117,6 +123,13 @@ class FloorComparison {
     for (SideError& side : sides) {
       side.offset += side.by_frame.dot(step);
       side.angle += step[2];
+    }
+  }
+
+  static void weigh(std::vector<SideError>& sides) {
+    for (SideError& side : sides) {
+      const Eigen::Vector2d error(side.offset, side.angle);
+      side.nees = error.dot(side.covariance.ldlt().solve(error));
     }
   }
 
@@ -171,12 +184,12 @@ class FloorComparison {
     const Eigen::Vector2d mine = side.leftNormal();
     const Eigen::Vector2d error(normal.dot(side.midpoint() - nearest->segment.start),
                                 std::asin(normal.x() * mine.y() - normal.y() * mine.x()));
-    const double nees = error.dot(room.sides[i].covariance.inverse() * error);
     const Eigen::Vector2d middle = side.midpoint();
     errors.sides.push_back(
         {error[0],
          error[1],
-         nees,
+         0.0,
+         room.sides[i].covariance,
          {normal.x(), normal.y(), normal.y() * middle.x() - normal.x() * middle.y()}});
   }
 
@@ -191,6 +204,8 @@ class FloorComparison {
       if (nearest == truth_.doors().end() || (nearest->centre_map - centre).norm() > 1.0) continue;
       errors.door_place.push_back((nearest->centre_map - centre).norm());
       errors.door_width.push_back(std::abs(nearest->width - door.width));
+      const Eigen::Vector2d off = T_.inverse() * nearest->centre_map - door.centre_map;
+      errors.door_nees.push_back(off.dot(door.covariance.ldlt().solve(off)));
     }
   }
 

@@ -16,7 +16,9 @@ constexpr struct {
   double most_gap = 1.4;
   int least_passes = 6;  // rays through each bin of it
   double passes_per_hit = 6.0;
-  double jamb_sigma = 0.03;  // of the edge of a gap: a bin, and the door that stands there [m]
+  std::int64_t pause = 60'000'000'000;  // after which the path is another one [ns]
+  double jamb_sigma = 0.005;            // of the edge of a gap, beside the bin that it lies in [m]
+  double across_sigma = 0.003;  // of a door in its wall, beside that of the wall: frames [m]
 } kDoors{};
 
 struct Stretch {
@@ -36,8 +38,20 @@ Stretch gapAt(const SideEvidence& evidence, double along, double length) {
   };
   while (is_gap(from - 1)) --from;
   while (is_gap(to + 1)) ++to;
-  return {static_cast<double>(from) * SideEvidence::kBin,
-          std::min(length, static_cast<double>(to + 1) * SideEvidence::kBin)};
+  // A bin that is wall in part counts as wall: the edge is half a bin further on average.
+  return {std::max(0.0, (static_cast<double>(from) - 0.5) * SideEvidence::kBin),
+          std::min(length, (static_cast<double>(to) + 1.5) * SideEvidence::kBin)};
+}
+
+// Along the wall by the bins in which the edges of the gap lie, across it by both sides.
+Eigen::Matrix2d covarianceOf(const SideLine& here, const SideLine& there) {
+  const double edge =
+      SideEvidence::kBin * SideEvidence::kBin / 12.0 + kDoors.jamb_sigma * kDoors.jamb_sigma;
+  const double walls = 0.25 * (here.covariance(0, 0) + there.covariance(0, 0));
+  const Eigen::Vector2d variances(walls + kDoors.across_sigma * kDoors.across_sigma, 0.5 * edge);
+  Eigen::Matrix2d axes;
+  axes << here.normal(), Eigen::Vector2d(-here.normal().y(), here.normal().x());
+  return axes * variances.asDiagonal() * axes.transpose();
 }
 
 std::size_t nearestSide(const RoomOutline& room, const Eigen::Vector2d& place,
@@ -81,8 +95,7 @@ std::optional<FittedDoor> doorAt(const std::vector<RoomOutline>& rooms,
   const Eigen::Vector2d on_there = there.start + along_there * there.direction();
   if ((on_here - on_there).norm() > kDoors.thickest) return std::nullopt;
   door.centre_map = 0.5 * (on_here + on_there);
-  const double sigma = kDoors.jamb_sigma * std::sqrt(0.5);
-  door.covariance = sigma * sigma * Eigen::Matrix2d::Identity();
+  door.covariance = covarianceOf(rooms[of[0]].sides[sides[0]], rooms[of[1]].sides[sides[1]]);
   return door;
 }
 
@@ -170,7 +183,10 @@ std::vector<Crossing> crossingsOf(const std::vector<geometry::StampedPose2>& pat
   std::vector<Crossing> crossings;
   std::optional<std::size_t> room;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  std::int64_t before = 0;
   for (const geometry::StampedPose2& point : path) {
+    if (point.stamp - before > kDoors.pause) room.reset();
+    before = point.stamp;
     const Eigen::Vector2d here = point.pose.translation();
     if (room && rooms[*room].contains(here)) {
       last = here;

@@ -25,6 +25,12 @@ constexpr struct {
   double far = 0.01;  // share of the points that are outliers on each side
 } kImages{};
 
+constexpr struct {
+  std::size_t most = 3;
+  double apart = 0.14;        // 8° [rad]
+  double least_share = 0.08;  // of all length, within 1.5° of a further direction
+} kDirections{};
+
 double quantileOf(std::vector<double>& values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
@@ -138,45 +144,79 @@ void FacingImages::conclude() {
       walls_[f][i] = hits >= kImages.least_hits && hits > kImages.least_share * passes_[i];
     }
   }
+  solid_.resize(passes_.size());
   free_.resize(passes_.size());
   known_.resize(passes_.size());
   for (std::size_t i = 0; i < passes_.size(); ++i) {
     free_[i] = passes_[i] >= kImages.least_passes && kImages.least_share * passes_[i] > ends_[i];
+    solid_[i] = ends_[i] >= kImages.least_hits && ends_[i] > kImages.least_share * passes_[i];
     known_[i] = passes_[i] > 0 || ends_[i] > 0;
   }
   last_ = {};
   hits_ = {};
 }
 
-double mainDirection(const std::vector<KeyScan>& keys, const std::vector<Pose2>& poses) {
-  constexpr double kNear = 0.1;
-  std::vector<std::pair<double, double>> pieces;  // direction, length
-  std::vector<double> histogram(90, 0.0);
+namespace {
+
+// A piece of surface: which way it faces, modulo 90° [rad], and its length [m].
+struct Facing {
+  double direction;
+  double length;
+};
+
+std::vector<Facing> facingsOf(const std::vector<KeyScan>& keys, const std::vector<Pose2>& poses) {
+  std::vector<Facing> facings;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     for (const auto& point : keys[i].surfaces.points) {
       if (!point.hasNormal()) continue;
       const double angle = std::atan2(point.normal.y(), point.normal.x()) + poses[i].theta();
       const double folded = angle - 0.5 * geometry::kPi * std::floor(angle / (0.5 * geometry::kPi));
-      const double length = std::min(point.reach, kImages.reach);
-      pieces.emplace_back(folded, length);
-      histogram[static_cast<std::size_t>(geometry::degrees(folded)) % 90] += length;
+      facings.push_back({folded, std::min(point.reach, kImages.reach)});
     }
   }
-  double best = 0.0;
-  double most = -1.0;
-  for (std::size_t i = 0; i < 90; ++i) {
-    const double sum = histogram[(i + 89) % 90] + histogram[i] + histogram[(i + 1) % 90];
-    if (sum > most) best = geometry::radians(static_cast<double>(i) + 0.5);
-    most = std::max(most, sum);
-  }
+  return facings;
+}
+
+double meanAbout(const std::vector<Facing>& facings, double best) {
+  constexpr double kNear = 0.1;
   std::complex<double> sum = 0.0;
-  for (const auto& [direction, length] : pieces) {
-    if (std::abs(std::remainder(direction - best, 0.5 * geometry::kPi)) < kNear) {
-      sum += std::polar(length, 4.0 * direction);
+  for (const Facing& facing : facings) {
+    if (std::abs(std::remainder(facing.direction - best, 0.5 * geometry::kPi)) < kNear) {
+      sum += std::polar(facing.length, 4.0 * facing.direction);
     }
   }
   const double mean = 0.25 * std::arg(sum);
   return mean < 0.0 ? mean + 0.5 * geometry::kPi : mean;
+}
+
+}  // namespace
+
+std::vector<double> mainDirections(const std::vector<KeyScan>& keys,
+                                   const std::vector<Pose2>& poses) {
+  const std::vector<Facing> facings = facingsOf(keys, poses);
+  std::vector<double> histogram(90, 0.0);  // by degree
+  double all = 0.0;
+  for (const Facing& facing : facings) {
+    histogram[static_cast<std::size_t>(geometry::degrees(facing.direction)) % 90] += facing.length;
+    all += facing.length;
+  }
+  std::vector<double> directions;
+  while (directions.size() < kDirections.most) {
+    double best = 0.0;
+    double most = -1.0;
+    for (std::size_t i = 0; i < 90; ++i) {
+      const double here = geometry::radians(static_cast<double>(i) + 0.5);
+      const double sum = histogram[(i + 89) % 90] + histogram[i] + histogram[(i + 1) % 90];
+      const bool is_apart = std::all_of(directions.begin(), directions.end(), [&](double other) {
+        return std::abs(std::remainder(here - other, 0.5 * geometry::kPi)) > kDirections.apart;
+      });
+      if (is_apart && sum > most) best = here;
+      if (is_apart) most = std::max(most, sum);
+    }
+    if (!directions.empty() && most < kDirections.least_share * all) break;
+    directions.push_back(meanAbout(facings, best));
+  }
+  return directions;
 }
 
 }  // namespace sightline::mapping

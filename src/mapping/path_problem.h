@@ -21,6 +21,8 @@ class PathProblem {
   /// Adds the steps by wheels and by dead reckoning.
   void addSteps();
   void add(const Relation& relation);
+  /// Leaves all poses where they are.
+  void hold();
   void solve();
 
   ceres::Problem& problem() { return problem_; }

@@ -71,6 +71,10 @@ void PathProblem::add(const Relation& relation) {
       new ceres::CauchyLoss(kGraph.loss), pose(relation.from), pose(relation.to)));
 }
 
+void PathProblem::hold() {
+  for (auto& value : values_) problem_.SetParameterBlockConstant(value.data());
+}
+
 void PathProblem::addWheels(std::size_t i, const Pose2& measured) {
   const pipeline::WheelsConfig wheels;
   Eigen::Matrix3d covariance = motion::stepCovariance(wheels.noise, measured);

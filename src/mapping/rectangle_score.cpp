@@ -163,4 +163,13 @@ void RectangleScore::take(const CellBox& box) {
   sumArea();
 }
 
+void RectangleScore::take(const std::function<bool(const Eigen::Vector2d&)>& holds) {
+  for (int y = 0; y < images_.height(); ++y) {
+    for (int x = 0; x < images_.width(); ++x) {
+      if (holds(Eigen::Vector2d(x + 0.5, y + 0.5))) used_[cellAt(x, y)] = 1;
+    }
+  }
+  sumArea();
+}
+
 }  // namespace sightline::mapping

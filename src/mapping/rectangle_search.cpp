@@ -26,7 +26,7 @@ constexpr struct {
 } kSearch{};
 
 // Stricter rounds first: what a clear room leaves over is described more laxly.
-constexpr DescriptionWeights kRounds[] = {
+constexpr DescriptionWeights kWeights[RectangleSearch::kRounds] = {
     {0.7, 0.1, 0.12, 0.25, 2.0, 2.0, 1.0, 2.0},
     {0.5, 0.1, 0.12, 0.2, 1.0, 2.0, 1.0, 0.5},
     {0.3, 0.05, 0.12, 0.15, 0.5, 2.0, 0.5, -0.5},
@@ -147,17 +147,57 @@ RectangleSearch::Candidate RectangleSearch::split(const Candidate& whole,
   return split(part, place);
 }
 
-std::vector<CellBox> RectangleSearch::find(const std::vector<Eigen::Vector2d>& places) {
-  std::vector<CellBox> rooms;
-  std::vector<Eigen::Vector2d> left = places;
-  for (const DescriptionWeights& weights : kRounds) {
-    score_.weigh(weights);
-    searchFrom(left, rooms);
+void RectangleSearch::begin(int round) {
+  score_.weigh(kWeights[round]);
+  seeds_.clear();
+  for (const Eigen::Vector2d& place : places_) {
+    const bool is_new = std::none_of(seeds_.begin(), seeds_.end(), [&](const Seed& seed) {
+      return (seed.place - place).norm() * images_.cell() < kSearch.step;
+    });
+    if (is_new) seeds_.push_back({place, {}});
   }
-  for (CellBox& room : rooms) {
-    for (int side = 0; side < 4; ++side) pushOut(room, side);
+}
+
+std::vector<RectangleSearch::Seed>::iterator RectangleSearch::leader() {
+  for (Seed& seed : seeds_) {
+    if (!seed.is_known) seed.best = best(seed.place);
+    seed.is_known = true;
   }
-  return rooms;
+  return std::max_element(seeds_.begin(), seeds_.end(),
+                          [](const Seed& a, const Seed& b) { return a.best.score < b.best.score; });
+}
+
+std::optional<double> RectangleSearch::bestScore() {
+  const auto first = leader();
+  if (first == seeds_.end() || first->best.score < score_.weights().least_score) {
+    return std::nullopt;
+  }
+  return first->best.score;
+}
+
+CellBox RectangleSearch::takeBest() {
+  const CellBox room = leader()->best.box;
+  score_.take(room);
+  leave([&](const Eigen::Vector2d& place) { return room.contains(place); });
+  for (Seed& seed : seeds_) seed.is_known = seed.is_known && !seed.best.box.overlaps(room);
+  return room;
+}
+
+void RectangleSearch::giveAway(const std::function<bool(const Eigen::Vector2d&)>& holds) {
+  score_.take(holds);
+  leave(holds);
+  for (Seed& seed : seeds_) seed.is_known = false;
+}
+
+void RectangleSearch::leave(const std::function<bool(const Eigen::Vector2d&)>& holds) {
+  seeds_.erase(std::remove_if(seeds_.begin(), seeds_.end(),
+                              [&](const Seed& seed) { return holds(seed.place); }),
+               seeds_.end());
+  places_.erase(std::remove_if(places_.begin(), places_.end(), holds), places_.end());
+}
+
+void RectangleSearch::pushOut(CellBox& box) const {
+  for (int side = 0; side < 4; ++side) pushOut(box, side);
 }
 
 // What a line of a side shows, cell by cell, of the wall that lies so far beyond.
@@ -215,42 +255,6 @@ void RectangleSearch::pushOut(CellBox& box, int side) const {
     best = far;
   }
   sideOf(box, side) += side < 2 ? -best : best;
-}
-
-// Takes the best room again and again; places in it are done.
-void RectangleSearch::searchFrom(std::vector<Eigen::Vector2d>& places,
-                                 std::vector<CellBox>& rooms) {
-  struct Seed {
-    Eigen::Vector2d place;
-    Candidate best;
-    bool is_known = false;
-  };
-  std::vector<Seed> seeds;
-  for (const Eigen::Vector2d& place : places) {
-    const bool is_new = std::none_of(seeds.begin(), seeds.end(), [&](const Seed& seed) {
-      return (seed.place - place).norm() * images_.cell() < kSearch.step;
-    });
-    if (is_new) seeds.push_back({place, {}});
-  }
-  while (!seeds.empty()) {
-    for (Seed& seed : seeds) {
-      if (!seed.is_known) seed.best = best(seed.place);
-      seed.is_known = true;
-    }
-    const auto leader =
-        std::max_element(seeds.begin(), seeds.end(),
-                         [](const Seed& a, const Seed& b) { return a.best.score < b.best.score; });
-    if (leader->best.score < score_.weights().least_score) break;
-    const CellBox room = leader->best.box;
-    rooms.push_back(room);
-    score_.take(room);
-    const auto is_in = [&](const Eigen::Vector2d& place) { return room.contains(place); };
-    seeds.erase(std::remove_if(seeds.begin(), seeds.end(),
-                               [&](const Seed& seed) { return is_in(seed.place); }),
-                seeds.end());
-    places.erase(std::remove_if(places.begin(), places.end(), is_in), places.end());
-    for (Seed& seed : seeds) seed.is_known = seed.is_known && !seed.best.box.overlaps(room);
-  }
 }
 
 }  // namespace sightline::mapping

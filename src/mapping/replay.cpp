@@ -9,10 +9,10 @@ namespace sightline::mapping {
 namespace {
 
 constexpr struct {
-  double position = 0.5;       // from the path that is kept [m]
-  double heading = 0.1745;     // 10° [rad]
-  double least_right = 0.98;   // share of the scans that a map has to keep
-  double longest_lost = 10.0;  // [s]
+  double position = 0.25;     // from the path that is kept: more, and a robot meets door frames [m]
+  double heading = 0.1745;    // 10° [rad]
+  double least_right = 0.98;  // share of the scans that a map has to keep
+  double longest_lost = 3.0;  // [s]
   double shortest_lost = 1.0;  // place that is worth a word [s]
   std::int64_t gap = 1'000'000'000;
 } kReplay{};
@@ -31,19 +31,15 @@ std::optional<geometry::Pose2> at(const std::vector<geometry::StampedPose2>& pos
 }  // namespace
 
 Replay::Replay(pipeline::EstimatorsConfig config, std::vector<geometry::StampedPose2> path,
-               const std::vector<geometry::StampedPose2>& odometry)
-    : path_(std::move(path)),
-      odometry_(odometry),
-      estimators_(started(std::move(config), path_), {false, true, false}) {}
+               std::vector<geometry::StampedPose2> odometry)
+    : path_(std::move(path)), tracker_(started(std::move(config), path_), std::move(odometry)) {}
 
 void Replay::take(pipeline::LocatedScan located) {
   if (located.scanner != 0) return;
   const std::int64_t stamp = located.scan.stamp;
   const auto truth = at(path_, stamp);
   if (!truth) return;
-  if (!located.T_base_sensor) located.T_base_sensor = geometry::Pose2();
-  if (!located.T_odom_base) located.T_odom_base = located.T_path_base = at(odometry_, stamp);
-  const pipeline::Estimates estimates = estimators_.take(std::move(located));
+  const pipeline::Estimates estimates = tracker_.take(std::move(located));
   ++scans_;
   if (!estimates.rooms) return judge(stamp, geometry::Pose2(1e3, 0.0, 0.0), *truth);
   count(*estimates.rooms);

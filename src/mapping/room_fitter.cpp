@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "sightline/mapping/rectangle_search.h"
+#include "room_search.h"
 #include "sightline/mapping/wall_adjustment.h"
 
 namespace sightline::mapping {
@@ -22,7 +22,8 @@ constexpr struct {
   double passage_width = 0.9;    // of a room made where the path leads over a gap [m]
   double shortest_passage = 0.6;
   double longest_passage = 6.0;
-  double doorway = 1.2;  // way between two rooms through one door [m]
+  double doorway = 1.2;     // way between two rooms through one door [m]
+  double least_wall = 3.0;  // of all rooms together: less is no building [m]
 } kRooms{};
 
 // Number of crossings between rooms that are too far apart for a door.
@@ -33,21 +34,6 @@ std::size_t distances(const std::vector<RoomOutline>& rooms,
       std::count_if(crossings.begin(), crossings.end(), [](const Crossing& crossing) {
         return (crossing.left_map - crossing.entered_map).norm() > kRooms.doorway;
       }));
-}
-
-std::vector<RoomOutline> searchRooms(const std::vector<KeyScan>& keys,
-                                     const std::vector<Pose2>& poses) {
-  const FacingImages images(keys, poses, mainDirection(keys, poses));
-  std::vector<Eigen::Vector2d> places;
-  for (const Pose2& pose : poses) places.push_back(images.toImage(pose.translation()));
-  std::vector<RoomOutline> rooms;
-  for (const CellBox& box : RectangleSearch(images).find(places)) {
-    const Eigen::Vector2d low(box.x0, box.y0);
-    const Eigen::Vector2d high(box.x1, box.y1);
-    rooms.push_back(rectangleOutline(images.toMap(0.5 * (low + high)), images.turn(),
-                                     images.cell() * (high - low)));
-  }
-  return rooms;
 }
 
 // Leaves out rooms that are no more than the depth of a doorway: the rooms before and behind them
@@ -107,6 +93,16 @@ double shareInside(const std::vector<geometry::StampedPose2>& path,
   return path.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(path.size());
 }
 
+double wallOf(const std::vector<RoomOutline>& rooms) {
+  double length = 0.0;
+  for (const RoomOutline& room : rooms) {
+    for (const auto& spans : room.spans) {
+      for (const world::Span& span : spans) length += span.to - span.from;
+    }
+  }
+  return length;
+}
+
 // Spans of the walls, and doors.
 void findOpenings(const std::vector<KeyScan>& keys, FittedRooms& fitted) {
   const auto evidence = gatherEvidence(keys, fitted.path.keys, fitted.rooms);
@@ -137,21 +133,17 @@ bool bridgeGap(const Crossing& crossing, std::vector<RoomOutline>& rooms) {
   return true;
 }
 
-}  // namespace
-
-FittedRooms fitRooms(const Survey& survey, const Progress& progress) {
-  FittedRooms fitted;
-  const auto& keys = survey.keys();
-  const auto report = [&](double share) {
-    if (progress) progress(share);
-  };
-  fitted.path = PathAdjuster(keys, [&](double share) { report(0.7 * share); }).adjust();
-  if (keys.empty()) return fitted;
+// Rooms about a path whose loops are closed; the path may give way a little to the walls.
+//
+// @param adjusted  the poses of the scans by those of the key scans
+template <class Poses>
+void fitAbout(const std::vector<KeyScan>& keys, const Poses& adjusted, const Progress& report,
+              FittedRooms& fitted) {
   fitted.rooms = searchRooms(keys, fitted.path.keys);
   report(0.8);
   adjustWalls(keys, fitted.path, fitted.rooms);
   report(0.95);
-  fitted.poses = posesOf(survey.path(), keys, fitted.path.keys);
+  fitted.poses = adjusted();
   dropNiches(fitted.rooms, fitted.poses);
   findOpenings(keys, fitted);
   bool has_bridged = false;
@@ -161,8 +153,50 @@ FittedRooms fitRooms(const Survey& survey, const Progress& progress) {
   sortByPath(fitted.rooms, fitted.poses);
   nameRooms(fitted.rooms);
   findOpenings(keys, fitted);
+  if (wallOf(fitted.rooms) < kRooms.least_wall) {
+    fitted.rooms.clear();
+    fitted.doors.clear();
+    fitted.missing_doors.clear();
+  }
   fitted.inside = shareInside(fitted.poses, fitted.rooms);
   report(1.0);
+}
+
+Progress reportTo(const Progress& progress) {
+  return [&progress](double share) {
+    if (progress) progress(share);
+  };
+}
+
+}  // namespace
+
+FittedRooms fitRooms(const Survey& survey, const Progress& progress) {
+  FittedRooms fitted;
+  const auto& keys = survey.keys();
+  const Progress report = reportTo(progress);
+  fitted.path = PathAdjuster(keys, [&](double share) { report(0.7 * share); }).adjust();
+  if (keys.empty()) return fitted;
+  fitAbout(
+      keys, [&] { return posesOf(survey.path(), keys, fitted.path.keys); }, report, fitted);
+  return fitted;
+}
+
+FittedRooms fitRooms(const GridSurvey& survey, const Progress& progress) {
+  FittedRooms fitted;
+  fitted.path.keys = survey.poses;
+  fitted.path.is_exact = true;
+  fitAbout(
+      survey.keys, [&] { return survey.path; }, reportTo(progress), fitted);
+  for (RoomOutline& room : fitted.rooms) {
+    for (std::size_t i = 0; i < room.sides.size(); ++i) {
+      // A wall in one row of cells, and one that leaves it at either end.
+      const double variance = survey.cell * survey.cell / 12.0;
+      const double length = std::max(survey.cell, room.side(i).length());
+      room.sides[i].covariance += Eigen::Vector2d(variance, 2.0 * variance / (length * length))
+                                      .asDiagonal()
+                                      .toDenseMatrix();
+    }
+  }
   return fitted;
 }
 

@@ -1,5 +1,6 @@
 #include "sightline/mapping/room_outline.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sightline/geometry/angle.h"
@@ -7,6 +8,26 @@
 namespace sightline::mapping {
 
 namespace {
+
+// A side that bends away from its rectangle by less is a side of it [m].
+constexpr double kSquare = 0.01;
+
+// The rectangle through the middles of the sides, turned as they are on average.
+Rectangle nearestRectangle(const RoomOutline& room) {
+  double turn = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double expected = room.sides[0].angle + 0.5 * geometry::kPi * static_cast<double>(i);
+    turn += 0.25 * geometry::wrapAngle(room.sides[i].angle - expected);
+  }
+  turn = geometry::wrapAngle(turn + room.sides[0].angle - 0.5 * geometry::kPi);
+  const geometry::Pose2 turned(0.0, 0.0, turn);
+  const auto middle = [&](std::size_t i) {
+    return Eigen::Vector2d(turned.inverse() * room.side(i).midpoint());
+  };
+  const Eigen::Vector2d low(middle(3).x(), middle(0).y());
+  const Eigen::Vector2d high(middle(1).x(), middle(2).y());
+  return {{turned * Eigen::Vector2d(0.5 * (low + high)), turn}, high - low};
+}
 
 // Where two sides meet, from the anchor.
 Eigen::Vector2d meeting(const SideLine& a, const SideLine& b) {
@@ -54,9 +75,66 @@ RoomOutline rectangleOutline(const Eigen::Vector2d& middle_map, double turn,
   for (int i = 0; i < 4; ++i) {  // south, east, north, west
     const double angle = geometry::wrapAngle(turn + 0.5 * geometry::kPi * (i + 1));
     const double half = 0.5 * (i % 2 == 0 ? size.y() : size.x());
-    room.sides.push_back({angle, -half, Eigen::Matrix2d::Zero(), false});
+    SideLine side;
+    side.angle = angle;
+    side.distance = -half;
+    room.sides.push_back(side);
   }
   room.spans.resize(4);
+  return room;
+}
+
+std::optional<Rectangle> rectangleOf(const RoomOutline& room) {
+  if (room.sides.size() != 4) return std::nullopt;
+  const Rectangle rectangle = nearestRectangle(room);
+  const Eigen::Vector2d half = 0.5 * rectangle.size;
+  const Eigen::Vector2d corners[4] = {
+      {-half.x(), -half.y()}, {half.x(), -half.y()}, half, {-half.x(), half.y()}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if ((rectangle.pose * corners[i] - room.side(i).start).norm() > kSquare) return std::nullopt;
+  }
+  return rectangle;
+}
+
+world::WallSigma sigmaOf(const RoomOutline& room, std::size_t i) {
+  const auto rectangle = rectangleOf(room);
+  const double right = 0.5 * geometry::kPi * (static_cast<double>(i) + 1.0);
+  const double bend =
+      rectangle ? geometry::wrapAngle(room.sides[i].angle - rectangle->pose.theta() - right) : 0.0;
+  const Eigen::Matrix2d& covariance = room.sides[i].covariance;
+  const double position = std::sqrt(covariance(0, 0));
+  const double direction = std::hypot(std::sqrt(covariance(1, 1)), bend);
+  const auto within = [](const config::Range& range, double value) {
+    return std::clamp(value, range.min, range.max);
+  };
+  return {within(world::kWallPositionSigmas, position),
+          within(world::kWallDirectionSigmas, direction)};
+}
+
+RoomOutline outlineOf(const world::Room& room) {
+  RoomOutline outline;
+  outline.name = room.name;
+  for (const world::Wall& wall : room.walls) outline.anchor += wall.segment.start;
+  outline.anchor /= static_cast<double>(room.walls.size());
+  for (const world::Wall& wall : room.walls) {
+    const Eigen::Vector2d normal = wall.segment.leftNormal();
+    SideLine side;
+    side.angle = std::atan2(normal.y(), normal.x());
+    side.distance = normal.dot(wall.segment.midpoint() - outline.anchor);
+    if (wall.sigma) {
+      side.covariance =
+          Eigen::Vector2d(wall.sigma->position, wall.sigma->direction).cwiseAbs2().asDiagonal();
+    }
+    side.is_seen = !wall.spans.empty();
+    outline.sides.push_back(side);
+    outline.spans.push_back(wall.spans);
+  }
+  return outline;
+}
+
+RoomOutline operator*(const geometry::Pose2& T, RoomOutline room) {
+  room.anchor = T * room.anchor;
+  for (SideLine& side : room.sides) side.angle = geometry::wrapAngle(side.angle + T.theta());
   return room;
 }
 

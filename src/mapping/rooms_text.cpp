@@ -24,48 +24,10 @@ constexpr const char* kHead =
     "deviations, "
     "across and in turn.\n";
 
-// A side that bends away from its rectangle by less is a side of it [m].
-constexpr double kSquare = 0.01;
-
-struct Rectangle {
-  geometry::Pose2 pose;
-  Eigen::Vector2d size;
-};
-
-// The rectangle through the middles of the sides, turned as they are on average.
-Rectangle rectangleOf(const RoomOutline& room) {
-  double turn = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double expected = room.sides[0].angle + 0.5 * geometry::kPi * static_cast<double>(i);
-    turn += 0.25 * geometry::wrapAngle(room.sides[i].angle - expected);
-  }
-  turn = geometry::wrapAngle(turn + room.sides[0].angle - 0.5 * geometry::kPi);
-  const geometry::Pose2 turned(0.0, 0.0, turn);
-  const auto middle = [&](std::size_t i) {
-    return Eigen::Vector2d(turned.inverse() * room.side(i).midpoint());
-  };
-  const Eigen::Vector2d low(middle(3).x(), middle(0).y());
-  const Eigen::Vector2d high(middle(1).x(), middle(2).y());
-  return {{turned * Eigen::Vector2d(0.5 * (low + high)), turn}, high - low};
-}
-
-bool isRectangle(const RoomOutline& room) {
-  if (room.sides.size() != 4) return false;
-  const Rectangle rectangle = rectangleOf(room);
-  const Eigen::Vector2d half = 0.5 * rectangle.size;
-  const Eigen::Vector2d corners[4] = {
-      {-half.x(), -half.y()}, {half.x(), -half.y()}, half, {-half.x(), half.y()}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    if ((rectangle.pose * corners[i] - room.side(i).start).norm() > kSquare) return false;
-  }
-  return true;
-}
-
 std::string outline(const RoomOutline& room) {
-  if (isRectangle(room)) {
-    const Rectangle r = rectangleOf(room);
+  if (const auto r = rectangleOf(room)) {
     return fmt::format("    size: [{:.3f}, {:.3f}]\n    pose: [{:.3f}, {:.3f}, {:.5f}]\n",
-                       r.size.x(), r.size.y(), r.pose.x(), r.pose.y(), r.pose.theta());
+                       r->size.x(), r->size.y(), r->pose.x(), r->pose.y(), r->pose.theta());
   }
   std::string corners;
   for (std::size_t i = 0; i < room.sides.size(); ++i) {
@@ -85,16 +47,15 @@ std::string spansText(const std::vector<world::Span>& spans, double length) {
 }
 
 std::string wall(const RoomOutline& room, std::size_t i, const std::string& name) {
-  const SideLine& side = room.sides[i];
-  const std::string certainty =
-      side.is_seen ? fmt::format("{:.0f} mm, {:.2f} deg", 1e3 * std::sqrt(side.covariance(0, 0)),
-                                 geometry::degrees(std::sqrt(side.covariance(1, 1))))
-                   : "not seen";
-  const std::string key =
+  const std::string where =
       room.spans[i].empty()
-          ? "{open: true}"
-          : fmt::format("{{spans: [{}]}}", spansText(room.spans[i], room.side(i).length()));
-  return fmt::format("      {}: {}  # {}\n", name, key, certainty);
+          ? "open: true"
+          : fmt::format("spans: [{}]", spansText(room.spans[i], room.side(i).length()));
+  if (!room.sides[i].is_seen) return fmt::format("      {}: {{{}}}  # not seen\n", name, where);
+  const world::WallSigma sigma = sigmaOf(room, i);
+  return fmt::format("      {}: {{{}, sigma: [{:.4f}, {:.5f}]}}  # {:.0f} mm, {:.2f} deg\n", name,
+                     where, sigma.position, sigma.direction, 1e3 * sigma.position,
+                     geometry::degrees(sigma.direction));
 }
 
 }  // namespace
@@ -102,7 +63,7 @@ std::string wall(const RoomOutline& room, std::size_t i, const std::string& name
 std::string roomsText(const FittedRooms& fitted) {
   std::string text = std::string(kHead) + "rooms:\n";
   for (const RoomOutline& room : fitted.rooms) {
-    const bool is_rectangle = isRectangle(room);
+    const bool is_rectangle = rectangleOf(room).has_value();
     constexpr const char* kNames[] = {"south", "east", "north", "west"};
     text += fmt::format("  {}:\n{}    walls:\n", room.name, outline(room));
     for (std::size_t i = 0; i < room.sides.size(); ++i) {

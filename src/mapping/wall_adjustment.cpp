@@ -7,6 +7,7 @@
 
 #include <ceres/ceres.h>
 
+#include "free_network.h"
 #include "path_problem.h"
 #include "pose_factors.h"
 #include "side_sightings.h"
@@ -70,8 +71,12 @@ class WallProblem {
   /// @param found  the rooms as they were found
   WallProblem(const std::vector<KeyScan>& keys, const AdjustedPath& path,
               const std::vector<RoomOutline>& rooms, const std::vector<RoomOutline>& found)
-      : path_(keys, path.keys), rooms_(rooms) {
-    path_.addSteps();
+      : path_(keys, path.keys), is_exact_(path.is_exact), rooms_(rooms) {
+    if (path.is_exact) {
+      path_.hold();
+    } else {
+      path_.addSteps();
+    }
     for (const Relation& relation : path.relations) path_.add(relation);
     for (std::size_t r = 0; r < rooms.size(); ++r) addRoom(rooms[r], found[r]);
   }
@@ -101,8 +106,10 @@ class WallProblem {
     }
   }
 
-  // Variance of a residual that was expected to be 1: surfaces may be smoother than assumed.
+  // Ratio of the variances to those that were assumed: surfaces may be smoother, and errors of
+  // neighbouring scans go together. All that is seen of a grid errs together.
   double varianceFactor() {
+    if (is_exact_) return 1.0;
     double sum = 0.0;
     for (const auto& block : sightings_) {
       double cost = 0.0;
@@ -115,24 +122,25 @@ class WallProblem {
     }
     const std::size_t residuals = 2 * sightings_.size() + 3 * path_.relations();
     const std::size_t unknowns = 3 * path_.poses().size() + 8 * rooms_.size();
-    return sum / static_cast<double>(residuals - std::min(unknowns, residuals / 2));
+    return kWalls.calibration * sum /
+           static_cast<double>(residuals - std::min(unknowns, residuals / 2));
   }
 
+  // Of where each side is among all sides, the relations between their errors taken into account.
   void storeCovariances(std::vector<RoomOutline>& rooms) {
-    const double factor = kWalls.calibration * varianceFactor();
-    ceres::Covariance::Options options;
-    options.algorithm_type = ceres::SPARSE_QR;
-    ceres::Covariance covariance(options);
-    std::vector<std::pair<const double*, const double*>> blocks;
+    std::vector<const double*> blocks;
     for (const auto& room : values_) {
-      for (const auto& side : room) blocks.emplace_back(side.data(), side.data());
+      for (const auto& side : room) blocks.push_back(side.data());
     }
-    if (!covariance.Compute(blocks, &path_.problem())) return;
-    for (std::size_t r = 0; r < rooms.size(); ++r) {
-      for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
-        Eigen::Matrix<double, 2, 2, Eigen::RowMajor> of_side;
-        covariance.GetCovarianceBlock(values_[r][i].data(), values_[r][i].data(), of_side.data());
-        rooms[r].sides[i].covariance = factor * aboutMiddle(rooms[r], i, of_side);
+    const auto joint = jointCovariance(blocks);
+    if (!joint) return;
+    const FreeNetwork network(rooms);
+    const Eigen::MatrixXd covariance = varianceFactor() * network.covariance(*joint);
+    Eigen::Index at = 0;
+    for (RoomOutline& room : rooms) {
+      for (SideLine& side : room.sides) {
+        side.covariance = covariance.block<2, 2>(at, at);
+        at += 2;
       }
     }
   }
@@ -170,17 +178,24 @@ class WallProblem {
     Eigen::Vector2d mean;
   };
 
-  // From the foot of the anchor to the middle of the side.
-  static Eigen::Matrix2d aboutMiddle(const RoomOutline& room, std::size_t i,
-                                     const Eigen::Matrix2d& covariance) {
-    const geometry::Segment side = room.side(i);
-    const double lever = side.direction().dot(side.midpoint() - room.anchor);
-    Eigen::Matrix2d shift = Eigen::Matrix2d::Identity();
-    shift(0, 1) = lever;
-    return shift * covariance * shift.transpose();
+  // Of all sides' values, in their order; nothing where it cannot be told.
+  std::optional<Eigen::MatrixXd> jointCovariance(const std::vector<const double*>& blocks) {
+    ceres::Covariance::Options options;
+    options.algorithm_type = ceres::SPARSE_QR;
+    ceres::Covariance covariance(options);
+    std::vector<std::pair<const double*, const double*>> pairs;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      for (std::size_t j = i; j < blocks.size(); ++j) pairs.emplace_back(blocks[i], blocks[j]);
+    }
+    if (!covariance.Compute(pairs, &path_.problem())) return std::nullopt;
+    const auto size = static_cast<Eigen::Index>(2 * blocks.size());
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> joint(size, size);
+    if (!covariance.GetCovarianceMatrix(blocks, joint.data())) return std::nullopt;
+    return Eigen::MatrixXd(joint);
   }
 
   PathProblem path_;
+  bool is_exact_;
   const std::vector<RoomOutline>& rooms_;
   std::vector<std::vector<std::array<double, 2>>> values_;  // distance and angle, by room and side
   std::vector<std::vector<bool>> seen_;

@@ -47,10 +47,11 @@ void applyWalls(const TrackingContext& context, PoseFilter& filter,
     WallUpdate& wall = walls[i];
     if (!wall.fit) continue;
     const world::WallIndex index{wall.room, wall.wall};
-    const geometry::Segment& expected = context.map.wall(index).segment;
+    const world::Wall& known = context.map.wall(index);
+    const geometry::Segment& expected = known.segment;
     const auto innovation =
         filter.innovation(wall.fit->line, expected.line(), wall.fit->motion_jacobian,
-                          WallError(index, expected, context.config.wall));
+                          WallError(index, expected, context.config.wall.of(known)));
     wall.innovation = WallInnovation{innovation.value, innovation.nis};
     if (innovation.nis <= context.config.wall.max_nis) {
       filter.update(innovation);

@@ -23,15 +23,16 @@ double medianSigma(const std::vector<BeamPoint>& points) {
 }  // namespace
 
 std::vector<GatedWall> gateWalls(const GateConfig& config,
-                                 const std::vector<const world::Wall*>& walls, double wall_sigma,
+                                 const std::vector<const world::Wall*>& walls,
+                                 const std::vector<double>& wall_sigmas,
                                  const geometry::UncertainPose2& T_map_base,
                                  const std::vector<BeamPoint>& points) {
   std::vector<GatedWall> gated;
   gated.reserve(walls.size());
   const double sigma = medianSigma(points);
-  for (const world::Wall* wall : walls) {
-    gated.push_back({ValidationGate(config, *wall, wall_sigma, T_map_base, sigma), {}});
-    if (wall->spans.empty()) continue;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    gated.push_back({ValidationGate(config, *walls[i], wall_sigmas[i], T_map_base, sigma), {}});
+    if (walls[i]->spans.empty()) continue;
     for (const BeamPoint& point : points) {
       if (gated.back().gate.contains(point)) gated.back().points.push_back(&point);
     }

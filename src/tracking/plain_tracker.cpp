@@ -58,7 +58,8 @@ std::vector<WallFit> findPlainly(const TrackerConfig& config, const PlainFilter&
                                  const world::Room& room, const Sweep& sweep) {
   std::vector<const world::Wall*> walls;
   for (const world::Wall& wall : room.walls) walls.push_back(&wall);
-  const auto first = gateWalls(config.gate, walls, 0.0, predicted.pose(), sweep.points);
+  const std::vector<double> exact(walls.size(), 0.0);
+  const auto first = gateWalls(config.gate, walls, exact, predicted.pose(), sweep.points);
   const Peaks peaks = peaksOf(config.hough, first);
   PlainFilter refined = predicted;
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -67,7 +68,7 @@ std::vector<WallFit> findPlainly(const TrackerConfig& config, const PlainFilter&
     if (!peaks[i] || !is_enough) continue;
     refined.update(compareLines(refined.pose().mean, *peaks[i], walls[i]->segment.line()));
   }
-  auto second = gateWalls(config.gate, walls, 0.0, refined.pose(), sweep.points);
+  auto second = gateWalls(config.gate, walls, exact, refined.pose(), sweep.points);
   giveEachBeamToOneWall(second);
   std::vector<WallFit> fits(walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {

@@ -1,5 +1,7 @@
 #include "sightline/tracking/tracker_config.h"
 
+#include <cmath>
+
 namespace sightline::tracking {
 
 namespace {
@@ -33,6 +35,14 @@ void HoughConfig::visit(config::FieldVisitor& visitor) {
        {1e-4, 0.2},
        "bin of the range-weighted Hough transform in angle (jensfelt section 4.2); wider "
        "where a gate would hold more than 200"});
+}
+
+WallConfig WallConfig::of(const world::Wall& wall) const {
+  WallConfig config = *this;
+  if (!wall.sigma) return config;
+  config.position_sigma = std::hypot(position_sigma, wall.sigma->position);
+  config.direction_sigma = std::hypot(direction_sigma, wall.sigma->direction);
+  return config;
 }
 
 void WallConfig::visit(config::FieldVisitor& visitor) {

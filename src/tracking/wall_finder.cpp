@@ -52,17 +52,17 @@ PoseFilter WallFinder::refineByHough(const PoseFilter& predicted, const Walls& w
   return refined;
 }
 
-void WallFinder::addMapUncertainty(const std::vector<const BeamPoint*>& points,
-                                   PolarLine& line) const {
+void WallFinder::addMapUncertainty(const WallConfig& known,
+                                   const std::vector<const BeamPoint*>& points, PolarLine& line) {
   // The map's wall is uncertain where it was seen: a turn about that place shifts the foot of the
   // perpendicular.
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
   for (const BeamPoint* point : points) centroid += point->position;
   centroid /= static_cast<double>(points.size());
   const double lever = line.direction().dot(centroid);
-  const double turn = varianceOf(wall_.direction_sigma);
+  const double turn = varianceOf(known.direction_sigma);
   Eigen::Matrix2d added;
-  added << varianceOf(wall_.position_sigma) + lever * lever * turn, lever * turn, lever * turn,
+  added << varianceOf(known.position_sigma) + lever * lever * turn, lever * turn, lever * turn,
       turn;
   line.covariance += added;
 }
@@ -71,6 +71,7 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
                          const Eigen::Matrix3d& walk, WallFit& result) const {
   // Least squares over the beams near the line, which is moved to fit them until they stay the
   // same.
+  const WallConfig known = wall_.of(wall);
   PolarLine line = geometry::transform(T_base_map, wall.segment.line());
   std::vector<const BeamPoint*> near = gated.points;
   fitting::LineFit fit;
@@ -82,23 +83,27 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
     if (!refined) return;
     fit = *refined;
     line = fit.line;
-    auto next = nearLine(gated.points, line, gate_.sigmas, wall_.position_sigma);
+    auto next = nearLine(gated.points, line, gate_.sigmas, known.position_sigma);
     if (next == near) break;
     near = std::move(next);
   }
   result.refusal = refusalOf(wall_, near, line);
   if (result.refusal != WallRefusal::kNone) return;
   result.fit = describe(fit, near, walk);
-  addMapUncertainty(near, result.fit->line);
+  addMapUncertainty(known, near, result.fit->line);
 }
 
 std::vector<WallFit> WallFinder::find(const PoseFilter& predicted, const world::RoomMap& map,
                                       const std::vector<world::WallIndex>& indices,
                                       const Sweep& sweep) const {
   Walls walls;
-  for (const world::WallIndex& index : indices) walls.push_back(&map.wall(index));
+  std::vector<double> sigmas;
+  for (const world::WallIndex& index : indices) {
+    walls.push_back(&map.wall(index));
+    sigmas.push_back(wall_.of(*walls.back()).position_sigma);
+  }
   const auto gate = [&](const PoseFilter& filter) {
-    return gateWalls(gate_, walls, wall_.position_sigma, filter.assumedPose(), sweep.points);
+    return gateWalls(gate_, walls, sigmas, filter.assumedPose(), sweep.points);
   };
   const std::vector<GatedWall> first = gate(predicted);
   const PoseFilter refined = refineByHough(predicted, walls, first);

@@ -124,7 +124,7 @@ std::size_t RoomMap::add(Room room, const std::vector<std::string>& wall_names) 
   requireWithin(kBuildingCoordinates, room.T_map_room.theta(), "pose");
   for (std::size_t i = 0; i < room.corners.size(); ++i) {
     const Segment side = room.T_map_room * sideOf(room.corners, i);
-    room.walls.push_back({wall_names[i], side, {{0.0, side.length()}}});
+    room.walls.push_back({wall_names[i], side, {{0.0, side.length()}}, {}});
   }
   rooms_.push_back(std::move(room));
   return rooms_.size() - 1;
@@ -149,11 +149,21 @@ std::size_t RoomMap::addPolygon(const std::string& name,
   return add({name, T_map_room, {}, corners_room, false}, names);
 }
 
-void RoomMap::setSpans(const WallIndex& index, const std::vector<Span>& spans) {
+Wall& RoomMap::wallAt(const WallIndex& index) {
   if (index.room >= rooms_.size() || index.wall >= rooms_[index.room].walls.size()) {
     throw InvalidRoomMap("", "no such wall");
   }
-  Wall& wall = rooms_[index.room].walls[index.wall];
+  return rooms_[index.room].walls[index.wall];
+}
+
+void RoomMap::setSigma(const WallIndex& index, const WallSigma& sigma) {
+  requireWithin(kWallPositionSigmas, sigma.position, "0");
+  requireWithin(kWallDirectionSigmas, sigma.direction, "1");
+  wallAt(index).sigma = sigma;
+}
+
+void RoomMap::setSpans(const WallIndex& index, const std::vector<Span>& spans) {
+  Wall& wall = wallAt(index);
   const double length = wall.segment.length();
   std::vector<Span> inside;
   for (const Span& span : spans) {

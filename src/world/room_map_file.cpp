@@ -35,6 +35,25 @@ std::vector<Eigen::Vector2d> cornersOf(const Node& polygon) {
   return corners;
 }
 
+// A rectangle's pose and size by two opposite corners in the map.
+std::pair<geometry::Pose2, Eigen::Vector2d> betweenCorners(const Node& room) {
+  const auto corners = cornersOf(room.at("corners"));
+  if (corners.size() != 2) {
+    room.at("corners").fail("a rectangle has two opposite corners here; more make a 'polygon'");
+  }
+  if (room.has("pose")) room.at("pose").fail("'corners' say where it is; its turn is 'turn_deg'");
+  const geometry::Pose2 pose(0.5 * (corners[0] + corners[1]), poseOf(room).theta());
+  const Eigen::Vector2d size = pose.rotation().transpose() * (corners[1] - corners[0]);
+  if (!(size.minCoeff() >= kBuildingLengths.min)) {
+    room.at("corners").fail(
+        fmt::format("the second lies at [{:.3f}, {:.3f}] from the first along the room's sides: "
+                    "both have to be "
+                    "above 0",
+                    size.x(), size.y()));
+  }
+  return {pose, size};
+}
+
 std::vector<Span> spansOf(const Node& node) {
   std::vector<Span> spans;
   for (const Node& item : node.items()) {
@@ -65,7 +84,7 @@ class Reader {
 
  private:
   void readRoom(const std::string& name, const Node& node) {
-    node.allowOnly({"size", "polygon", "pose", "turn_deg", "walls"});
+    node.allowOnly({"size", "polygon", "corners", "pose", "turn_deg", "walls"});
     const std::size_t room = readOutline(name, node);
     if (!node.has("walls")) return;
     for (const auto& [wall, wall_node] : node.at("walls").entries()) {
@@ -74,8 +93,12 @@ class Reader {
   }
 
   std::size_t readOutline(const std::string& name, const Node& node) {
-    if (node.has("size") == node.has("polygon")) {
-      node.fail("a room has either the key 'size' or the key 'polygon'");
+    if (node.has("size") + node.has("polygon") + node.has("corners") != 1) {
+      node.fail("a room has either the key 'size' or the key 'polygon' or the key 'corners'");
+    }
+    if (node.has("corners")) {
+      const auto [middle, size] = betweenCorners(node);
+      return map_.addRectangle(name, size, middle);
     }
     const geometry::Pose2 pose = poseOf(node);
     if (node.has("size")) {
@@ -98,10 +121,20 @@ class Reader {
       node.fail("no such wall in this room; " + wallNames(map_.rooms()[room]));
     }
     const WallIndex index{room, static_cast<std::size_t>(wall - walls.begin())};
-    node.allowOnly({"spans", "open"});
+    node.allowOnly({"spans", "open", "sigma"});
     if (node.has("spans") && node.has("open")) node.fail("either 'spans' or 'open', not both");
     if (node.has("spans")) readSpans(index, node.at("spans"));
     if (node.has("open") && node.at("open").flag()) map_.setSpans(index, {});
+    if (node.has("sigma")) readSigma(index, node.at("sigma"));
+  }
+
+  void readSigma(const WallIndex& wall, const Node& node) {
+    const auto sigma = node.numbers(2);
+    try {
+      map_.setSigma(wall, {sigma[0], sigma[1]});
+    } catch (const InvalidRoomMap& fault) {
+      node.items().at(std::stoul(fault.key())).fail(fault.what());
+    }
   }
 
   void readSpans(const WallIndex& wall, const Node& node) {
@@ -140,9 +173,7 @@ class Reader {
 // Writes a map, part by part, into a YAML text.
 class Writer {
  public:
-  explicit Writer(const RoomMap& map) : map_(map) {
-    out_.SetDoublePrecision(17);  // enough for a double to read back as itself
-  }
+  explicit Writer(const RoomMap& map) : map_(map) {}
 
   std::string text() {
     out_ << YAML::BeginMap << YAML::Key << "rooms" << YAML::Value << YAML::BeginMap;
@@ -160,7 +191,14 @@ class Writer {
  private:
   void name(const std::string& text) { out_ << YAML::DoubleQuoted << text; }
 
-  void numbers(const std::vector<double>& values) { out_ << YAML::Flow << values; }
+  // The fewest digits that read back as the same number.
+  void number(double value) { out_ << fmt::format("{}", value); }
+
+  void numbers(const std::vector<double>& values) {
+    out_ << YAML::Flow << YAML::BeginSeq;
+    for (const double value : values) number(value);
+    out_ << YAML::EndSeq;
+  }
 
   void write(const Room& room) {
     out_ << YAML::Key;
@@ -185,6 +223,8 @@ class Writer {
     out_ << YAML::EndSeq;
   }
 
+  static bool isPlain(const Wall& wall) { return isWhole(wall) && !wall.sigma; }
+
   static bool isWhole(const Wall& wall) {
     return wall.spans.size() == 1 && wall.spans[0].from == 0.0 &&
            wall.spans[0].to == wall.segment.length();
@@ -193,7 +233,7 @@ class Writer {
   void writeWalls(const Room& room) {
     bool begun = false;
     for (const Wall& wall : room.walls) {
-      if (isWhole(wall)) continue;
+      if (isPlain(wall)) continue;
       if (!begun) out_ << YAML::Key << "walls" << YAML::Value << YAML::BeginMap;
       begun = true;
       write(wall);
@@ -205,10 +245,14 @@ class Writer {
     out_ << YAML::Key << wall.name << YAML::Value << YAML::Flow << YAML::BeginMap;
     if (wall.spans.empty()) {
       out_ << YAML::Key << "open" << YAML::Value << true;
-    } else {
+    } else if (!isWhole(wall)) {
       out_ << YAML::Key << "spans" << YAML::Value << YAML::Flow << YAML::BeginSeq;
       for (const Span& span : wall.spans) numbers({span.from, span.to});
       out_ << YAML::EndSeq;
+    }
+    if (wall.sigma) {
+      out_ << YAML::Key << "sigma" << YAML::Value;
+      numbers({wall.sigma->position, wall.sigma->direction});
     }
     out_ << YAML::EndMap;
   }
@@ -219,7 +263,8 @@ class Writer {
     for (const std::size_t room : door.rooms) name(map_.rooms()[room].name);
     out_ << YAML::EndSeq << YAML::Key << "at" << YAML::Value;
     numbers({door.centre_map.x(), door.centre_map.y()});
-    out_ << YAML::Key << "width" << YAML::Value << door.width;
+    out_ << YAML::Key << "width" << YAML::Value;
+    number(door.width);
     out_ << YAML::Key << "threshold" << YAML::Value << door.threshold << YAML::EndMap;
   }
 

@@ -60,7 +60,7 @@ TEST_F(FittedRoomsTest, KnowHowCertainTheirSidesAre) {
   for (const RoomOutline& room : fitted_.rooms) {
     for (const SideLine& side : room.sides) {
       EXPECT_TRUE(side.is_seen);
-      EXPECT_GT(side.covariance(0, 0), 1e-7);
+      EXPECT_GT(side.covariance(0, 0), 1e-8);
       EXPECT_LT(side.covariance(0, 0), 0.02 * 0.02);
       EXPECT_GT(side.covariance.determinant(), 0.0);
     }
@@ -103,6 +103,49 @@ TEST_F(FittedRoomsTest, ComeWithoutWheels) {
       test::FloorComparison(fitted, truth_, test::truthFromFitted(fitted, drive_)).errors();
   EXPECT_EQ(errors.found, 2U);
   EXPECT_EQ(errors.missing_doors, 0U);
+}
+
+// The wheels fall silent half-way: dead reckoning goes on with the scans alone.
+TEST_F(FittedRoomsTest, ComeWithWheelsThatFallSilent) {
+  bench::RecordedDrive half = drive_;
+  half.odometry.resize(half.odometry.size() / 2);
+  const Survey survey = test::surveyOf(half, {});
+  EXPECT_GT(survey.withWheels(), 0U);
+  EXPECT_LT(survey.withWheels(), survey_.withWheels());
+  const FittedRooms fitted = fitRooms(survey, {});
+  const auto errors =
+      test::FloorComparison(fitted, truth_, test::truthFromFitted(fitted, half)).errors();
+  EXPECT_EQ(errors.found, 2U);
+}
+
+TEST_F(FittedRoomsTest, TellHowWellATrackerKnowsTheirWalls) {
+  const world::RoomMap map(config::Node::parse(roomsText(fitted_), "fitted"));
+  for (const world::Room& room : map.rooms()) {
+    for (const world::Wall& wall : room.walls) {
+      ASSERT_TRUE(wall.sigma) << room.name << ' ' << wall.name;
+      EXPECT_GT(wall.sigma->position, 0.0001);
+      EXPECT_LT(wall.sigma->position, 0.01);
+    }
+  }
+}
+
+// A yard with posts, and no wall.
+TEST(FittedRooms, ClutterAloneIsNoBuilding) {
+  bench::DriveSetup setup;
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector2d place(1.7 * (i % 8) - 6.0 + 0.4 * (i % 3), 1.9 * (i / 8) - 7.0);
+    if (std::abs(place.y()) > 0.8) setup.world.add(world::WorldDisc{place, 0.08, {}});
+  }
+  setup.start = {-5.0, 0.0, 0.0};
+  setup.path.waypoints_map = {{5.0, 0.0}, {-5.0, 0.0}};
+  setup.scanner.beams = 181;
+  setup.scanner.angle_min = -0.5 * geometry::kPi;
+  setup.scanner.angle_max = 0.5 * geometry::kPi;
+  setup.scanner.range_max = 8.0;
+  setup.scanner.rate = 5.0;
+  setup.seconds = 40.0;
+  const Survey survey = test::surveyOf(bench::recordDrive(setup, 3), {});
+  EXPECT_TRUE(fitRooms(survey, {}).rooms.empty());
 }
 
 }  // namespace

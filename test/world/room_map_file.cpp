@@ -89,6 +89,29 @@ TEST(RoomMapFile, TurnsMayBeInDegrees) {
                config::Error);
 }
 
+TEST(RoomMapFile, ARectangleMayBeGivenByTwoCorners) {
+  const RoomMap map(config::Node::parse(
+      "rooms:\n  a: {corners: [[1, 2], [5, 4]]}\n  b: {corners: [[0, 0], [-2, 3]], turn_deg: 90}\n",
+      "rooms"));
+  EXPECT_EQ(map.rooms()[0].T_map_room.translation(), Vector2d(3.0, 3.0));
+  EXPECT_EQ(map.rooms()[0].walls[0].segment.start, Vector2d(1.0, 2.0));
+  EXPECT_NEAR(map.rooms()[1].walls[0].segment.length(), 3.0, 1e-12);
+  EXPECT_LT((map.rooms()[1].walls[2].segment.start - Vector2d(-2.0, 3.0)).norm(), 1e-12);
+}
+
+TEST(RoomMapFile, SaysHowWellAWallIsKnown) {
+  RoomMap map(config::Node::parse(
+      "rooms:\n  a: {size: [4, 2], walls: {east: {sigma: [0.02, 0.003]}}}\n", "rooms"));
+  EXPECT_FALSE(map.rooms()[0].walls[0].sigma);
+  ASSERT_TRUE(map.rooms()[0].walls[1].sigma);
+  EXPECT_EQ(map.rooms()[0].walls[1].spans.size(), 1U);
+  map.setSigma({0, 3}, {0.1, 0.2});
+  const RoomMap again = readBack(map);
+  EXPECT_EQ(again.rooms()[0].walls[1].sigma->position, 0.02);
+  EXPECT_EQ(again.rooms()[0].walls[3].sigma->direction, 0.2);
+  EXPECT_FALSE(again.rooms()[0].walls[2].sigma);
+}
+
 TEST(RoomMapFile, SaysWhereItCannotBeWritten) {
   const config::Error error =
       test::errorOf([] { writeFile(floorPlan(), "/no/such/folder/rooms.yaml"); });

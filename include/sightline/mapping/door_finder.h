@@ -32,7 +32,7 @@ struct FoundDoors {
   std::vector<Crossing> missing;  ///< crossings without a door: their rooms lie too far apart
 };
 
-/// Crossings of a path between rooms.
+/// Crossings of a path between rooms. A pause of a minute and more tells nothing of the way.
 std::vector<Crossing> crossingsOf(const std::vector<geometry::StampedPose2>& path,
                                   const std::vector<RoomOutline>& rooms);
 

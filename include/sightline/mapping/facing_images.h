@@ -29,6 +29,8 @@ class FacingImages {
   bool isInside(int x, int y) const { return x >= 0 && y >= 0 && x < size_[0] && y < size_[1]; }
 
   bool isWall(int facing, int x, int y) const { return walls_[facing][at(x, y)] != 0; }
+  /// Whether something stands there, whichever way it faces.
+  bool isSolid(int x, int y) const { return solid_[at(x, y)] != 0; }
   /// Whether rays passed, and nothing stood there.
   bool isFree(int x, int y) const { return free_[at(x, y)] != 0; }
   /// Whether anything is known of it.
@@ -61,11 +63,14 @@ class FacingImages {
   std::vector<std::uint16_t> passes_;
   std::vector<std::uint16_t> ends_;
   std::array<std::vector<std::uint8_t>, kFacings> walls_;
+  std::vector<std::uint8_t> solid_;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> known_;
 };
 
-/// The main direction of what the scans met, modulo 90°, in [0, 90°) [rad]; weighed by length.
-double mainDirection(const std::vector<KeyScan>& keys, const std::vector<geometry::Pose2>& poses);
+/// Directions of what the scans met, modulo 90°, in [0, 90°) [rad], weighed by length: the main one
+/// first, then those of parts of the building that stand at another angle, if any.
+std::vector<double> mainDirections(const std::vector<KeyScan>& keys,
+                                   const std::vector<geometry::Pose2>& poses);
 
 }  // namespace sightline::mapping

@@ -19,6 +19,7 @@ struct AdjustedPath {
   double wheel_scale = 1.0;           ///< true length over that which the wheels tell
   std::size_t loops = 0;              ///< relations between two visits of a place
   std::size_t refused = 0;            ///< such relations that contradict the others, left out
+  bool is_exact = false;              ///< whether the poses are known, as of places in a grid
 };
 
 /// Closes the loops of a path (Lu and Milios 1997; matching as in dead reckoning): forward through

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -57,6 +58,7 @@ class RectangleScore {
   }
   /// Gives the area to a room.
   void take(const CellBox& box);
+  void take(const std::function<bool(const Eigen::Vector2d&)>& holds);
   bool isUsed(int x, int y) const { return used_[cellAt(x, y)] != 0; }
 
  private:

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sightline/geometry/stamped_pose2.h"
-#include "sightline/pipeline/estimators.h"
+#include "sightline/mapping/recorded_tracker.h"
 
 namespace sightline::mapping {
 
@@ -31,7 +31,7 @@ class Replay {
  public:
   /// The map is that of `config.rooms`, the start that of the path. Throws config::Error.
   Replay(pipeline::EstimatorsConfig config, std::vector<geometry::StampedPose2> path,
-         const std::vector<geometry::StampedPose2>& odometry);
+         std::vector<geometry::StampedPose2> odometry);
 
   /// Takes a scan of the recording. Where it brings no odometry that of dead reckoning is used.
   void take(pipeline::LocatedScan located);
@@ -39,26 +39,25 @@ class Replay {
   void finish();
 
   std::size_t scans() const { return scans_; }
-  /// Share of the scans within 0.5 m and 10° of the path.
+  /// Share of the scans within 0.25 m and 10° of the path.
   double rightShare() const;
   double meanDifference() const;  ///< of position, of the scans within [m]
   double maxDifference() const { return most_; }
-  /// Whether the rooms keep the robot: all but 2 % of the scans are right, and no place is lost for
-  /// more than 10 s.
+  /// Whether the rooms keep the robot: all but 2 % of the scans are right, and none of the others
+  /// last longer than 3 s.
   bool isGood() const;
   /// Places that were lost for a second and more, the longest first.
   std::vector<LostPlace> lostPlaces() const;
   /// By room and wall.
   const std::map<std::pair<std::size_t, std::size_t>, WallUse>& walls() const { return walls_; }
-  const world::RoomMap& map() { return estimators_.rooms()->map(); }
+  const world::RoomMap& map() { return tracker_.map(); }
 
  private:
   void judge(std::int64_t stamp, const geometry::Pose2& difference, const geometry::Pose2& truth);
   void count(const tracking::TrackerUpdate& update);
 
   std::vector<geometry::StampedPose2> path_;
-  std::vector<geometry::StampedPose2> odometry_;
-  pipeline::Estimators estimators_;
+  RecordedTracker tracker_;
   std::size_t scans_ = 0;
   std::size_t right_ = 0;
   double sum_ = 0.0;

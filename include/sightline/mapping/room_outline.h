@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "sightline/geometry/pose2.h"
 #include "sightline/geometry/segment.h"
 #include "sightline/world/room_map.h"
 
@@ -16,7 +19,8 @@ namespace sightline::mapping {
 struct SideLine {
   double angle = 0.0;     ///< [rad]
   double distance = 0.0;  ///< [m], negative where the anchor is inside
-  /// Of (distance at the middle of the side, angle) [m², m rad, rad²].
+  /// Of (distance at the middle of the side, angle) [m², m rad, rad²], among the other sides: a
+  /// shift and a turn of all together is no error.
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   bool is_seen = false;  ///< whether scans tell where it is
 
@@ -39,5 +43,24 @@ struct RoomOutline {
 /// A rectangle: its middle, its turn and its size.
 RoomOutline rectangleOutline(const Eigen::Vector2d& middle_map, double turn,
                              const Eigen::Vector2d& size);
+
+/// A rectangle by its middle and turn in the map, and its size along its own axes [m].
+struct Rectangle {
+  geometry::Pose2 pose;
+  Eigen::Vector2d size;
+};
+
+/// The rectangle that an outline is, to a centimetre; nothing where it is none.
+std::optional<Rectangle> rectangleOf(const RoomOutline& room);
+
+/// How well the line of a side is known: by its covariance, and of a rectangle, whose sides are
+/// written as square, by the turn that this leaves out.
+world::WallSigma sigmaOf(const RoomOutline& room, std::size_t side);
+
+/// The outline of a room of a map, in which neighbours meet at its corners.
+RoomOutline outlineOf(const world::Room& room);
+
+/// The outline in another frame.
+RoomOutline operator*(const geometry::Pose2& T_target_source, RoomOutline room);
 
 }  // namespace sightline::mapping

@@ -11,7 +11,7 @@ namespace sightline::mapping {
 /// Adjusts the sides of rooms and the path together: each side a free line, its angles with its
 /// neighbours right as a soft factor, what each key scan sees of it a measurement of both; besides,
 /// the relations of the path, the steps of the wheels with one unknown scale. Sides get covariances
-/// of where they are, the first pose being exact.
+/// of where they are among one another.
 void adjustWalls(const std::vector<KeyScan>& keys, AdjustedPath& path,
                  std::vector<RoomOutline>& rooms);
 

@@ -20,9 +20,10 @@ struct GatedWall {
 /// Puts each beam into the gates that it lies in, one for each wall (jensfelt section 4.2, step 1).
 /// Walls that are open get no beams.
 ///
-/// @param wall_sigma  how well the map knows where a wall stands [m]
+/// @param wall_sigmas  how well the map knows where each stands [m]
 std::vector<GatedWall> gateWalls(const GateConfig& config,
-                                 const std::vector<const world::Wall*>& walls, double wall_sigma,
+                                 const std::vector<const world::Wall*>& walls,
+                                 const std::vector<double>& wall_sigmas,
                                  const geometry::UncertainPose2& T_map_base,
                                  const std::vector<BeamPoint>& points);
 

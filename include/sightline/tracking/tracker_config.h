@@ -2,6 +2,7 @@
 
 #include "sightline/config/fields.h"
 #include "sightline/motion/odometry_noise.h"
+#include "sightline/world/room_map.h"
 
 namespace sightline::tracking {
 
@@ -34,6 +35,9 @@ struct WallConfig {
   double position_sigma = 0.01;    ///< of a wall of the map [m]
   double direction_sigma = 0.004;  ///< of a wall of the map [rad]
   double max_nis = 16.0;           ///< of an update, 2 degrees of freedom
+
+  /// The same, with the accuracy of a wall where the map tells it.
+  WallConfig of(const world::Wall& wall) const;
   void visit(config::FieldVisitor& visitor);
 };
 

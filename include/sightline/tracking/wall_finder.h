@@ -28,8 +28,9 @@ class WallFinder {
                            const std::vector<GatedWall>& gated) const;
   void fitWall(const GatedWall& gated, const world::Wall& wall, const geometry::Pose2& T_base_map,
                const Eigen::Matrix3d& walk, WallFit& result) const;
-  void addMapUncertainty(const std::vector<const BeamPoint*>& points,
-                         geometry::PolarLine& line) const;
+  static void addMapUncertainty(const WallConfig& known,
+                                const std::vector<const BeamPoint*>& points,
+                                geometry::PolarLine& line);
 
   GateConfig gate_;
   WallConfig wall_;

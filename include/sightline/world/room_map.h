@@ -34,12 +34,24 @@ struct Span {
   double to = 0.0;
 };
 
+/// How far a wall may stand from where the map has it, as standard deviations.
+struct WallSigma {
+  double position = 0.0;   ///< across its middle [m]
+  double direction = 0.0;  ///< about its middle [rad]
+};
+
+/// Limits of a wall's standard deviations [m, rad]: a wall that is known exactly would let no scan
+/// correct it.
+constexpr config::Range kWallPositionSigmas{1e-4, 10.0};
+constexpr config::Range kWallDirectionSigmas{1e-5, 1.6};
+
 /// One side of a room, in the map frame, with the inside of the room on its left.
 struct Wall {
   std::string name;
   geometry::Segment segment;
   /// Stretches where the wall is really there, in order and apart; doors are left out already.
   std::vector<Span> spans;
+  std::optional<WallSigma> sigma;  ///< where the map says it
 };
 
 /// A wall of a map by its place there.
@@ -83,10 +95,14 @@ Span openingOf(const Door& door, const Wall& wall);
 /// rooms:
 ///   office:
 ///     size: [5.0, 3.0]                 # m; a rectangle, centred on its pose
-///     pose: [12.0, 4.0, 0.1]           # m, m, rad in the map; default 0; or [x, y] and turn_deg:
-///     6 walls:                           # optional; others are there over their whole length
+///     pose: [12.0, 4.0, 0.1]           # m, m, rad in the map; default 0; or [x, y], turn_deg
+///     walls:                           # optional; others are there over their whole length
 ///       north: {spans: [[0.0, 2.0], [2.5, 5.0]]}   # m from the wall's start
 ///       east: {open: true}             # no wall at all
+///       south: {sigma: [0.005, 0.001]} # m, rad: how well it is known; default that of the tracker
+///   hall:
+///     corners: [[0.0, 0.0], [4.0, 3.0]]   # m, in the map: a rectangle's corner at the start of
+///     its turn_deg: 12.5                      # south and the one across; degrees, default 0
 ///   tower:
 ///     polygon: [[0, 0], [4, 0], [3, 3], [0, 2]]    # m, in the room's frame
 /// doors:
@@ -113,6 +129,8 @@ class RoomMap {
   /// InvalidRoomMap, with the number of the span as its key, where one is no stretch of the wall
   /// or overlaps the one before it.
   void setSpans(const WallIndex& wall, const std::vector<Span>& spans);
+  /// Says how well a wall is known. Throws InvalidRoomMap where it is out of range.
+  void setSigma(const WallIndex& wall, const WallSigma& sigma);
   /// Opens the walls of both rooms that are nearest to the centre. Throws InvalidRoomMap where the
   /// rooms are one, or no wall of either is there for it.
   ///
@@ -134,6 +152,7 @@ class RoomMap {
   const Door* doorBetween(std::size_t a, std::size_t b, const Eigen::Vector2d& near_map) const;
 
  private:
+  Wall& wallAt(const WallIndex& index);
   std::size_t add(Room room, const std::vector<std::string>& wall_names);
   std::size_t pierce(const Door& door, std::size_t room) const;
 

@@ -54,8 +54,8 @@ void Program::positional(const std::string& name, std::optional<std::string>& va
 }
 
 void Program::positionals(const std::string& name, std::vector<std::string>& values,
-                          const std::string& meaning) {
-  app_->add_option(name, values, meaning)->required()->option_text(" ");
+                          const std::string& meaning, Fewest fewest) {
+  app_->add_option(name, values, meaning)->required(fewest == Fewest::kOne)->option_text(" ");
 }
 
 void Program::flag(const std::string& name, bool& value, const std::string& meaning) {

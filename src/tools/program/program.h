@@ -34,9 +34,10 @@ class Program {
   /// Adds an argument that may be left out.
   void positional(const std::string& name, std::optional<std::string>& value,
                   const std::string& meaning);
-  /// All further words that belong to no option, at least one.
+  enum class Fewest { kNone, kOne };
+  /// All further words that belong to no option.
   void positionals(const std::string& name, std::vector<std::string>& values,
-                   const std::string& meaning);
+                   const std::string& meaning, Fewest fewest = Fewest::kOne);
   /// An option without a value: true where it is given.
   void flag(const std::string& name, bool& value, const std::string& meaning);
 
