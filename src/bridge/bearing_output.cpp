@@ -11,7 +11,7 @@ namespace sightline::bridge {
 namespace {
 
 // The set as a sensor that hangs upside down has it in its own frame.
-void mirror(targets::BearingSet& set) {
+void mirrorBearings(targets::BearingSet& set) {
   for (double& bearing : set.bearings) bearing = -bearing;
   set.field_of_view = {-set.field_of_view.max, -set.field_of_view.min};
 }
@@ -26,7 +26,7 @@ BearingOutput::BearingOutput(Output& output, const targets::BearingDetectorConfi
 
 void BearingOutput::write(const pipeline::LocatedScan& located) {
   targets::BearingSet set = detector_.detect(located.scan);
-  if (located.upside_down) mirror(set);
+  if (located.upside_down) mirrorBearings(set);
   ++scans_;
   bearings_ += set.bearings.size();
   empty_ += set.bearings.empty() ? 1 : 0;
@@ -39,7 +39,8 @@ void BearingOutput::write(const pipeline::LocatedScan& located) {
 visualization_msgs::MarkerArray toMarkers(const BearingArray& message) {
   constexpr double kWidth = 0.03;
   visualization_msgs::MarkerArray markers;
-  auto rays = emptyMarker("bearings", visualization_msgs::Marker::LINE_LIST, message.header, kWidth);
+  auto rays =
+      emptyMarker("bearings", visualization_msgs::Marker::LINE_LIST, message.header, kWidth);
   rays.color = colour(1.0F, 0.6F, 0.1F, 0.9F);
   // A set without bearings takes the rays of the last one away.
   if (message.bearings.empty()) rays.action = visualization_msgs::Marker::DELETE;

@@ -38,9 +38,10 @@ class BearingDetectorNode {
   void take(const pipeline::LocatedScan& located) {
     if (!located.scan.intensities().empty()) return bearings_.write(located);
     if (!is_blind_) {
-      ROS_ERROR("scans of '%s' without intensities: no target can be told from a wall; tell the "
-                "driver of the scanner to send them",
-                located.scan.frame.c_str());
+      ROS_ERROR(
+          "scans of '%s' without intensities: no target can be told from a wall; tell the "
+          "driver of the scanner to send them",
+          located.scan.frame.c_str());
     }
     is_blind_ = true;
     throw bridge::UnusedScan("no intensities", /*blameless=*/true);

@@ -71,10 +71,9 @@ void BearingDetectorConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("range_max", range_max,
                  {"m", {1e-3, 1e4}, "farther returns are left out, r_max (dames eq. 1)"});
   visitor.group("field_of_view", field_of_view);
-  visitor.number("sigma", sigma,
-                 {"rad",
-                  {0.0, 1.0},
-                  "standard deviation of a bearing; 0: that of a place between two beams"});
+  visitor.number(
+      "sigma", sigma,
+      {"rad", {0.0, 1.0}, "standard deviation of a bearing; 0: that of a place between two beams"});
 }
 
 void BearingDetectorConfig::check(const std::string& source) const {
@@ -93,7 +92,8 @@ FieldOfView BearingDetector::viewOf(const scan::ScanGeometry& geometry) const {
   const auto [low, high] = std::minmax(geometry.angles().front(), geometry.angles().back());
   const double middle = 0.5 * (low + high);
   const double shift = geometry::wrapAngle(middle) - middle;
-  const FieldOfView seen{std::max(low + shift, -geometry::kPi), std::min(high + shift, geometry::kPi)};
+  const FieldOfView seen{std::max(low + shift, -geometry::kPi),
+                         std::min(high + shift, geometry::kPi)};
   return seen.within(config_.field_of_view);
 }
 

@@ -115,7 +115,7 @@ class Carrier {
   motion::PoseHistory path_;  // T_map_base without the gait
   GaitConfig gait_config_;
   std::optional<Gait> gait_;
-  std::optional<Bumps> bumps_;            // of a robot on a floor that has some
+  std::optional<Bumps> bumps_;           // of a robot on a floor that has some
   std::deque<BodyMotion> body_motions_;  // one a step; the last one is that of now
 };
 
