@@ -136,6 +136,19 @@ visualization_msgs::MarkerArray toMarkers(const targets::TargetEstimate& estimat
   return markers;
 }
 
+visualization_msgs::MarkerArray toMarkers(const logs::Points& truth, std::int64_t stamp,
+                                          const std::string& frame) {
+  constexpr double kSize = 0.12;
+  auto marker = emptyMarker("truth", visualization_msgs::Marker::SPHERE_LIST,
+                            targetsHeader(stamp, frame), kSize);
+  marker.scale.z = kSize;
+  marker.color = colour(1.0F, 1.0F, 1.0F);
+  for (const Eigen::Vector2d& place : truth) marker.points.push_back(toPoint(place, 0.1));
+  visualization_msgs::MarkerArray markers;
+  markers.markers.push_back(marker);
+  return markers;
+}
+
 nav_msgs::OccupancyGrid toMessage(const targets::IntensityGrid& grid, std::int64_t stamp,
                                   const std::string& frame) {
   nav_msgs::OccupancyGrid message;
