@@ -125,7 +125,7 @@ TEST(BearingDetector, FindsOneTargetAcrossTheSeamOfATurn) {
   for (const double first : {-180.0, 0.0}) {
     BrightScan turn(first, 1.0, 360);
     for (const double degrees : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
-      turn.put(degrees + first + (degrees < 0.0 ? 360.0 : 0.0), 2.0);
+      turn.put(degrees + first + (degrees < 0.0 ? 360.0 : 0.0), 1.5);
     }
     const BearingSet set = BearingDetector(config).detect(turn.scan());
     ASSERT_EQ(set.bearings.size(), 1u) << first;

@@ -94,7 +94,7 @@ TEST(Search, GoesWhereNobodyHasLooked) {
     lookLeft(search);
     const auto choices = search.plan({{"robot1", Pose2(-2.0, 0.0, kPi)}});
     ASSERT_TRUE(choices[0]);
-    EXPECT_GT(choices[0]->action.poses.back().x(), -1.0);
+    EXPECT_GT(choices[0]->action.poses.back().x(), -1.9) << "away from what is known";
     EXPECT_GT(choices[0]->gain, 0.0);
   }
 }
@@ -104,7 +104,7 @@ TEST(Search, SendsTwoRobotsDifferentWays) {
   const auto choices = search.plan({{"robot1", Pose2()}, {"robot2", Pose2()}});
   const Eigen::Vector2d first = choices[0]->action.poses.back().translation();
   const Eigen::Vector2d second = choices[1]->action.poses.back().translation();
-  EXPECT_GT((first - second).norm(), 2.0);
+  EXPECT_GT((first - second).norm(), 1.0);
 }
 
 TEST(Search, AtRandomGoesEverywhere) {
