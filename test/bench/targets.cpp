@@ -13,6 +13,7 @@
 #include "targets/detector.h"
 #include "targets/fit.h"
 #include "targets/real.h"
+#include "targets/real_sensor.h"
 #include "targets/search.h"
 #include "targets/team.h"
 
@@ -24,7 +25,8 @@ void measureRealTeam() {
   const char* data = std::getenv("SIGHTLINE_DATA");
   const std::filesystem::path folder = std::filesystem::path(data ? data : "") / "mrclam6";
   if (data && std::filesystem::exists(folder)) {
-    bench::measureReal(folder.string());
+    bench::measureRealSensors(folder.string());
+    bench::measureReal(folder.string(), seedsOf(8));
   } else {
     fmt::print("# targets.real: left out, SIGHTLINE_DATA holds no mrclam6\n");
   }

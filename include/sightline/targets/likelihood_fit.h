@@ -20,7 +20,7 @@ struct Fitted {
 struct DetectionLikelihood {
   Fitted false_negative;
   Fitted target_diameter;  ///< [m]
-  double deviance = 0.0;   ///< of the model against the share of each 0.2 m bin
+  double deviance = 0.0;   ///< of the model against the shares by range and bearing
   double limit = 0.0;      ///< that a model which holds exceeds once in a thousand
   bool isRefused() const { return deviance > limit; }
 };

@@ -124,9 +124,9 @@ inline std::vector<targets::KnownLook> disturbed(const std::vector<HallwayLook>&
   std::normal_distribution<double> normal;
   Eigen::Vector3d errors[3] = {};
   std::vector<targets::KnownLook> known;
-  const std::size_t step = std::max<std::size_t>(1, looks.size() / kLooks);
-  for (std::size_t i = 0; i < looks.size() && known.size() < kLooks; i += step) {
-    const HallwayLook& look = looks[i];
+  const std::size_t count = std::min(kLooks, looks.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const HallwayLook& look = looks[i * looks.size() / count];
     Eigen::Vector3d& error = errors[look.robot];
     for (int j = 0; j < 3; ++j) {
       const double sigma = j < 2 ? position_sigma : heading_sigma;
