@@ -16,7 +16,7 @@ constexpr double kShortestWay = 0.3;
 
 void ActionSetConfig::visit(config::FieldVisitor& visitor) {
   visitor.integer("headings", headings,
-                  {"-", {1, 360}, "directions of the ways, one of them straight ahead"});
+                  {"-", {1, 360}, "directions of the ways, the first along the map's x axis"});
   visitor.numbers("lengths", lengths, {"m", {0.1, 1e4}, "of the ways (dames figure 3)"});
   visitor.integer("looks", looks,
                   {"-", {1, 100}, "poses along a way by which it is judged, T (dames figure 3)"});
@@ -99,8 +99,7 @@ std::vector<SearchAction> ActionSet::within(const geometry::Pose2& T_map_sensor,
                                             double clearance) const {
   std::vector<SearchAction> actions;
   for (int i = 0; i < config_.headings; ++i) {
-    const double heading =
-        geometry::wrapAngle(T_map_sensor.theta() + 2.0 * geometry::kPi * i / config_.headings);
+    const double heading = geometry::wrapAngle(2.0 * geometry::kPi * i / config_.headings);
     double longest = 0.0;
     for (const double wanted : config_.lengths) {
       const double length = reach({T_map_sensor.translation(), heading}, wanted, clearance);

@@ -163,6 +163,7 @@ RobotCharacter characterOf(const std::vector<KnownLook>& looks,
   const Labels of_apart = label(apart, targets_map, labelling);
   character.visibility =
       fitVisibility(predictionsOf(apart, of_apart.opportunities, character.table));
+  character.error_inflation = inflationOf(apart, of_apart.opportunities, character.errors);
   return character;
 }
 
@@ -230,6 +231,7 @@ SensorModelConfig RobotCharacter::model() const {
   model.bearing.sigma = std::max(errors.sigma, 1e-4);
   model.bearing.bias = errors.bias;
   model.bearing.tail = std::min(errors.tail, 10.0);
+  model.bearing.inflation = std::min(error_inflation, 1e4);
   model.clutter = {clutter_mean, 1.0, 0.0};
   return model;
 }

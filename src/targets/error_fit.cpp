@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "sightline/targets/likelihood_fit.h"
 
@@ -119,6 +121,51 @@ ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opport
   result.bias = mixture.bias;
   result.tail = mixture.tail();
   return result;
+}
+
+namespace {
+
+// Errors of each target's detections in their order, in σ, outliers cut.
+std::map<std::size_t, std::vector<double>> errorsByTarget(const std::vector<KnownLook>& looks,
+                                                          const std::vector<Opportunity>& labelled,
+                                                          const ErrorFit& fit) {
+  constexpr double kFarthest = 3.0;
+  std::map<std::size_t, std::vector<double>> errors;
+  for (const Opportunity& one : labelled) {
+    if (!one.is_detected) continue;
+    const double left = one.error - fit.bias - fit.lag * looks[one.look].turn_rate;
+    errors[one.target].push_back(std::clamp(left / (fit.sigma * fit.tail), -kFarthest, kFarthest));
+  }
+  return errors;
+}
+
+double correlationAt(const std::map<std::size_t, std::vector<double>>& errors, std::size_t lag) {
+  double products = 0.0;
+  double squares = 0.0;
+  for (const auto& [target, sequence] : errors) {
+    for (std::size_t i = lag; i < sequence.size(); ++i) {
+      products += sequence[i] * sequence[i - lag];
+      squares += 0.5 * (sequence[i] * sequence[i] + sequence[i - lag] * sequence[i - lag]);
+    }
+  }
+  return squares > 0.0 ? products / squares : 0.0;
+}
+
+}  // namespace
+
+double inflationOf(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
+                   const ErrorFit& fit) {
+  constexpr std::size_t kFarthest = 50;
+  constexpr double kLost = 0.05;
+  if (!(fit.sigma > 0.0)) return 1.0;
+  const auto errors = errorsByTarget(looks, labelled, fit);
+  double inflation = 1.0;
+  for (std::size_t lag = 1; lag <= kFarthest; ++lag) {
+    const double correlation = correlationAt(errors, lag);
+    if (correlation < kLost) break;
+    inflation += 2.0 * correlation;
+  }
+  return inflation;
 }
 
 }  // namespace sightline::targets

@@ -12,6 +12,7 @@
 
 #include "targets/detector.h"
 #include "targets/fit.h"
+#include "targets/node.h"
 #include "targets/real.h"
 #include "targets/real_sensor.h"
 #include "targets/search.h"
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
       {"search", [&] { bench::measureSearch(seeds); }},
       {"wrong", [] { bench::measureWrongModels(seedsOf(4)); }},
       {"scale", [] { bench::measureScale(seedsOf(3)); }},
+      {"node", [] { bench::measureTrackerNode(60.0); }},
       {"real", measureRealTeam},
   };
   for (const Part& part : parts) {

@@ -11,7 +11,7 @@ namespace sightline::targets {
 
 /// Settings of the actions that robots choose from (dames figure 3).
 struct ActionSetConfig {
-  int headings = 8;                             ///< evenly around, one of them straight ahead
+  int headings = 8;                             ///< evenly around, the first along the map's x axis
   std::vector<double> lengths{1.0, 4.5, 20.0};  ///< of the ways [m]
   int looks = 3;             ///< T, poses at which the robot looks, evenly along the way
   double clearance = 0.4;    ///< kept from walls, and half the width of the way [m]

@@ -52,5 +52,10 @@ struct ErrorFit {
 /// without bias and lag.
 ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
                    double gate);
+/// Variance of the mean of many errors of a target over that of independent ones, 1 + 2 Σ ρ_k, by
+/// the correlation of errors k detections apart up to where it is lost; looks are those of one
+/// robot.
+double inflationOf(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
+                   const ErrorFit& fit);
 
 }  // namespace sightline::targets
