@@ -52,7 +52,7 @@ void SearchingTeam::send(Robot& robot, const targets::SearchAction& action) {
 }
 
 std::vector<std::string> SearchingTeam::plan(std::int64_t now) {
-  const bool is_anew = config_.replan > 0.0 && config_.gain != targets::SearchGain::kRandom &&
+  const bool is_anew = config_.replan > 0.0 && config_.gain == targets::SearchGain::kDetections &&
                        now - planned_ >= std::llround(1e9 * config_.replan);
   std::vector<targets::Search::Robot> due;
   for (const auto& [name, robot] : robots_) {

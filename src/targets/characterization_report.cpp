@@ -77,6 +77,11 @@ std::vector<std::string> Characterization::report() const {
   addPaper(*this, lines);
   addLikelihood(*this, lines);
   for (const auto& [name, robot] : robots) addRobot(name, robot, lines);
+  if (!robots.empty()) {
+    lines.push_back(
+        fmt::format("targets are {:.3f} m in x and in y from where all bearings see them",
+                    robots.begin()->second.place_sigma));
+  }
   return lines;
 }
 

@@ -168,4 +168,26 @@ double inflationOf(const std::vector<KnownLook>& looks, const std::vector<Opport
   return inflation;
 }
 
+ErrorFit fitErrors(const std::vector<KnownLook>& looks,
+                   const std::vector<Eigen::Vector2d>& targets_map, LabellingConfig& labelling) {
+  constexpr int kRounds = 4;
+  ErrorFit errors;
+  for (int round = 0; round < kRounds; ++round) {
+    const Labels labels = label(looks, targets_map, labelling);
+    const ErrorFit left = fitErrors(looks, labels.opportunities, labelling.gate * labelling.sigma);
+    if (!(left.sigma > 0.0)) break;
+    if (round == 0) {
+      errors = left;
+      labelling.sigma = left.sigma * left.tail;
+    } else {
+      errors.bias += left.bias;
+      errors.lag += left.lag;
+      errors.lag_sigma = left.lag_sigma;
+    }
+    labelling.bias = errors.bias;
+    labelling.lag = errors.lag;
+  }
+  return errors;
+}
+
 }  // namespace sightline::targets

@@ -11,8 +11,11 @@ void SearchConfig::visit(config::FieldVisitor& visitor) {
                  "the paper's control law; or at random");
   visitor.group("actions", actions);
   visitor.group("undetected", undetected);
-  visitor.number("replan", replan,
-                 {"s", {0.0, 1e6}, "after which ways are chosen anew; 0: when they end"});
+  visitor.number(
+      "replan", replan,
+      {"s",
+       {0.0, 1e6},
+       "after which ways are chosen anew, by detections; 0, and the others: at their ends"});
   visitor.integer("seed", seed, {"1", {0, 1e9}, "of ways that are chosen at random"});
 }
 

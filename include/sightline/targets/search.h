@@ -26,7 +26,7 @@ struct SearchConfig {
   SearchGain gain = SearchGain::kDetections;
   ActionSetConfig actions;
   UndetectedConfig undetected;
-  double replan = 3.0;  ///< time after which ways are chosen anew; 0: at their ends only [s]
+  double replan = 3.0;  ///< time after which kDetections chooses anew; 0: at the ends of ways [s]
   int seed = 1;         ///< of random ways
 
   void visit(config::FieldVisitor& visitor);

@@ -60,6 +60,8 @@ struct BearingConfig {
   /// Variance of the mean of many bearings of one target over that of independent ones: errors that
   /// last over looks do not average out.
   double inflation = 1.0;
+  /// Standard deviation, in x and in y, of where a target is from where all bearings see it [m].
+  double place_sigma = 0.0;
 
   void visit(config::FieldVisitor& visitor);
 };

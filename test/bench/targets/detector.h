@@ -119,7 +119,7 @@ class DetectorFigures {
 inline std::vector<targets::KnownLook> disturbed(const std::vector<HallwayLook>& looks,
                                                  double position_sigma, double heading_sigma) {
   constexpr std::size_t kLooks = 1959;
-  constexpr double kKept = 0.95;  // of a robot's error from look to look
+  constexpr double kKept = 0.7;  // of a robot's error from look to look
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   Eigen::Vector3d errors[3] = {};

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -94,13 +93,16 @@ class IdentifiedLooks {
 
 /// Bearings of one robot against the truth, by the identities of the log.
 struct TrueErrors {
-  double sigma = 0.0;  // by the median of what is left [rad]
-  double bias = 0.0;   // median [rad]
-  double lag = 0.0;    // [s]
+  double sigma = 0.0;   // of the core, by the same mixture [rad]
+  double spread = 0.0;  // by the median of what is left [rad]
+  double bias = 0.0;    // median [rad]
+  double lag = 0.0;     // [s]
 };
 
 inline TrueErrors trueErrors(const IdentifiedLooks& all, std::size_t robot) {
   std::vector<std::pair<double, double>> errors;  // error, turn rate
+  std::vector<targets::KnownLook> looks;
+  std::vector<targets::Opportunity> labelled;
   for (const auto& look : all.looks()) {
     if (look.known.robot != robot) continue;
     for (std::size_t i = 0; i < look.subjects.size(); ++i) {
@@ -110,19 +112,23 @@ inline TrueErrors trueErrors(const IdentifiedLooks& all, std::size_t robot) {
           targets::polarOf(look.known.T_map_sensor.inverse() * all.landmarks()[*landmark]);
       errors.emplace_back(geometry::wrapAngle(look.known.bearings[i] - place.bearing),
                           look.known.turn_rate);
+      labelled.push_back({looks.size(), *landmark, place, true, errors.back().first});
     }
+    looks.push_back(look.known);
   }
+  constexpr double kGate = 0.12;  // rad
   TrueErrors result;
+  result.sigma = targets::fitErrors(looks, labelled, kGate).sigma;
   for (int round = 0; round < 20; ++round) {
     std::vector<double> left;
     for (const auto& [error, rate] : errors) left.push_back(error - result.lag * rate);
     result.bias = median(left);
     for (double& one : left) one = std::abs(one - result.bias);
-    result.sigma = 1.4826 * median(left);
+    result.spread = 1.4826 * median(left);
     double products = 0.0;
     double squares = 0.0;
     for (const auto& [error, rate] : errors) {
-      if (std::abs(error - result.lag * rate - result.bias) > 3.0 * result.sigma) continue;
+      if (std::abs(error - result.lag * rate - result.bias) > 3.0 * result.spread) continue;
       products += rate * (error - result.bias);
       squares += rate * rate;
     }
@@ -145,8 +151,8 @@ class HeldOutDetections {
       const bool is_seen =
           std::any_of(look.subjects.begin(), look.subjects.end(),
                       [&](int subject) { return all.landmarkOf(subject) == landmark; });
-      Bin& bin = bins_[{look.known.robot, static_cast<int>(place.range),
-                        static_cast<int>(std::floor(place.bearing / 0.2))}];
+      Bin& bin =
+          bins_[{static_cast<int>(place.range), static_cast<int>(std::floor(place.bearing / 0.2))}];
       bin.tried += 1.0;
       bin.seen += is_seen ? 1.0 : 0.0;
       bin.predicted += character.table.at(place.range, place.bearing);
@@ -168,7 +174,7 @@ class HeldOutDetections {
     double seen = 0.0;
     double predicted = 0.0;
   };
-  std::map<std::tuple<std::size_t, int, int>, Bin> bins_;
+  std::map<std::pair<int, int>, Bin> bins_;
 };
 
 /// The characterisation of real cameras against the identities of the log.

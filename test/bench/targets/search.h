@@ -75,7 +75,8 @@ inline double timeToFind(const SearchArena& arena, targets::SearchGain gain, std
     std::vector<targets::Search::Robot> idle;
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < static_cast<std::size_t>(arena.team.robots); ++i) {
-      const bool is_due = gain != targets::SearchGain::kRandom && second % kReplan == 0;
+      // The law of the paper keeps to its ways, as random ones are kept to.
+      const bool is_due = gain == targets::SearchGain::kDetections && second % kReplan == 0;
       if (second > 0 && !is_due && !team.hasArrived(i)) continue;
       idle.push_back({names(i), team.T_map_sensor(i)});
       indices.push_back(i);
