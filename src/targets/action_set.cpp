@@ -20,7 +20,8 @@ void ActionSetConfig::visit(config::FieldVisitor& visitor) {
   visitor.numbers("lengths", lengths, {"m", {0.1, 1e4}, "of the ways (dames figure 3)"});
   visitor.integer("looks", looks,
                   {"-", {1, 100}, "poses along a way by which it is judged, T (dames figure 3)"});
-  visitor.number("clearance", clearance, {"m", {0.0, 10.0}, "kept from walls on a way"});
+  visitor.number("clearance", clearance,
+                 {"m", {0.0, 10.0}, "kept from walls ahead, half of it beside a way"});
   visitor.number("speed", speed, {"m/s", {1e-3, 50.0}, "of the robots"});
   visitor.number("turn_rate", turn_rate, {"rad/s", {1e-3, 50.0}, "at which they turn to a way"});
   visitor.numbers("area", area,
@@ -52,7 +53,7 @@ bool ActionSet::isFree(const Eigen::Vector2d& from_map, const Eigen::Vector2d& t
   if (!sight_) return true;
   const Eigen::Vector2d along = (to_map - from_map).normalized();
   const Eigen::Vector2d across(-along.y(), along.x());
-  for (const double side : {0.0, -clearance, clearance}) {
+  for (const double side : {0.0, -0.5 * clearance, 0.5 * clearance}) {
     if (!sight_->isClear(from_map + side * across, to_map + side * across)) return false;
   }
   return true;

@@ -14,7 +14,7 @@ struct ActionSetConfig {
   int headings = 8;                             ///< evenly around, the first along the map's x axis
   std::vector<double> lengths{1.0, 4.5, 20.0};  ///< of the ways [m]
   int looks = 3;             ///< T, poses at which the robot looks, evenly along the way
-  double clearance = 0.4;    ///< kept from walls, and half the width of the way [m]
+  double clearance = 0.4;    ///< kept from walls ahead, and half of it beside the way [m]
   double speed = 0.5;        ///< of the robots [m/s]
   double turn_rate = 0.8;    ///< at which they turn to a way [rad/s]
   std::vector<double> area;  ///< x_min, y_min, x_max, y_max: none leads out of it; empty: all [m]
