@@ -89,7 +89,8 @@ SearchAction ActionSet::actionTo(const geometry::Pose2& T_map_sensor, double hea
 }
 
 std::vector<SearchAction> ActionSet::from(const geometry::Pose2& T_map_sensor) const {
-  for (const double share : {1.0, 0.5, 0.1}) {
+  // More than a line of sight forgives at its end, so that no way leads through a wall.
+  for (const double share : {1.0, 0.5, 0.3}) {
     const auto actions = within(T_map_sensor, share * config_.clearance);
     if (!actions.empty()) return actions;
   }

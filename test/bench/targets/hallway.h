@@ -92,6 +92,7 @@ class HallwayRun {
     profile.beams = 271;
     carrier.addScanner(profile, mounting);
     goals_.push_back(start.translation());
+    deadlines_.push_back(0);
     detectors_.emplace_back();
   }
 
@@ -115,14 +116,18 @@ class HallwayRun {
   void steer() {
     for (std::size_t i = 0; i < simulation_.robots(); ++i) {
       const geometry::Pose2 pose = simulation_.robot(i).T_map_base();
-      if ((goals_[i] - pose.translation()).norm() > 0.15) continue;
+      const bool has_arrived = (goals_[i] - pose.translation()).norm() < 0.15;
+      if (!has_arrived && simulation_.time() < deadlines_[i]) continue;
       const auto actions = actions_.from(pose);
       if (actions.empty()) continue;
       std::uniform_int_distribution<std::size_t> any(0, actions.size() - 1);
-      goals_[i] = actions[any(random_)].poses.back().translation();
+      const targets::SearchAction& action = actions[any(random_)];
+      goals_[i] = action.poses.back().translation();
+      deadlines_[i] = simulation_.time() + std::llround(2e9 * (action.duration + 5.0));
       simulation::Path way;
       way.speed = 0.5;
       way.tolerance = 0.1;
+      way.turn_rate = 1.5;
       way.waypoints_map = {goals_[i]};
       simulation_.carrier(i).follow(way);
     }
@@ -184,6 +189,7 @@ class HallwayRun {
   simulation::Simulation simulation_;
   std::vector<targets::BearingDetector> detectors_;
   std::vector<Eigen::Vector2d> goals_;
+  std::vector<std::int64_t> deadlines_;  // at which another way is taken all the same
   std::mt19937_64 random_;
 };
 
