@@ -14,6 +14,7 @@
 #include "sightline/bridge/input_monitor.h"
 #include "sightline/bridge/node_diagnostics.h"
 #include "sightline/bridge/parameters.h"
+#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/search_messages.h"
 #include "sightline/bridge/searching_team.h"
 #include "sightline/bridge/target_messages.h"

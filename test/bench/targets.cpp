@@ -22,6 +22,12 @@ namespace {
 
 using namespace sightline;
 
+// Seeds of everything, by SIGHTLINE_BENCH_SEEDS where it is set: fewer for a quick look.
+int seedsOf(int usual) {
+  const char* asked = std::getenv("SIGHTLINE_BENCH_SEEDS");
+  return asked ? std::clamp(std::atoi(asked), 1, usual) : usual;
+}
+
 void measureRealTeam() {
   const char* data = std::getenv("SIGHTLINE_DATA");
   const std::filesystem::path folder = std::filesystem::path(data ? data : "") / "mrclam6";
@@ -31,12 +37,6 @@ void measureRealTeam() {
   } else {
     fmt::print("# targets.real: left out, SIGHTLINE_DATA holds no mrclam6\n");
   }
-}
-
-// Seeds of everything, by SIGHTLINE_BENCH_SEEDS where it is set: fewer for a quick look.
-int seedsOf(int usual) {
-  const char* asked = std::getenv("SIGHTLINE_BENCH_SEEDS");
-  return asked ? std::clamp(std::atoi(asked), 1, usual) : usual;
 }
 
 struct Part {
