@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,9 @@ struct SensorJob {
   std::string config;
   std::string truth;
   std::string out;
-  std::string scan;           // topic of scans with intensities; empty: none
-  double beam_spacing = 1.0;  // [deg]
-  double sigma = 2.25;        // [deg]
+  std::optional<std::string> scan;  // topic of scans with intensities
+  double beam_spacing = 1.0;        // [deg]
+  double sigma = 2.25;              // [deg]
   double threshold = targets::BearingDetectorConfig{}.threshold;
 };
 
@@ -50,8 +51,8 @@ void writeModels(const targets::Characterization& found, const std::string& path
 void drawScan(const SensorJob& job) {
   targets::BearingDetectorConfig detector;
   detector.threshold = job.threshold;
-  const auto scan = bridge::brightestScan(job.in, job.scan, targets::BearingDetector(detector));
-  if (!scan) throw config::Error(job.in.front(), 0, job.scan, "no scan with intensities");
+  const auto scan = bridge::brightestScan(job.in, *job.scan, targets::BearingDetector(detector));
+  if (!scan) throw config::Error(job.in.front(), 0, *job.scan, "no scan with intensities");
   bridge::drawBrightScan(*scan, detector, (std::filesystem::path(job.out) / "scan.png").string());
 }
 
@@ -74,7 +75,7 @@ int characterizeSensors(const SensorJob& job) {
   std::filesystem::create_directories(job.out);
   writeModels(found, (std::filesystem::path(job.out) / "sensor_models.yaml").string());
   bridge::drawCharacterization(found, config, job.out);
-  if (!job.scan.empty()) drawScan(job);
+  if (job.scan) drawScan(job);
   if (recorded.without_pose > 0) {
     std::printf("%zu looks left out: no pose\n", recorded.without_pose);
   }
