@@ -81,7 +81,7 @@ std_msgs::ColorRGBA targetColour(const targets::Target& target) {
 visualization_msgs::Marker ellipseMarker(const targets::Target& target,
                                          const std_msgs::Header& header) {
   constexpr double kHeight = 0.02;
-  constexpr double kSmallest = 0.08;  // so that a well-known one can still be seen
+  constexpr double kSmallest = 0.3;  // so that a well-known one can still be seen
   auto marker = emptyMarker("targets", visualization_msgs::Marker::CYLINDER, header, kSmallest);
   const geometry::Ellipse ellipse = geometry::covarianceEllipse(target.covariance);
   marker.id = static_cast<int>(target.label);
@@ -95,7 +95,7 @@ visualization_msgs::Marker ellipseMarker(const targets::Target& target,
 
 visualization_msgs::Marker labelMarker(const targets::Target& target,
                                        const std_msgs::Header& header) {
-  constexpr double kLetters = 0.3;
+  constexpr double kLetters = 0.6;
   auto marker =
       emptyMarker("labels", visualization_msgs::Marker::TEXT_VIEW_FACING, header, kLetters);
   marker.id = static_cast<int>(target.label);
