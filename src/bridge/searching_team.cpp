@@ -80,9 +80,10 @@ std::vector<targets::SearchAction> SearchingTeam::actions() const {
 }
 
 simulation::Velocity SearchingTeam::steer(const std::string& robot, std::int64_t now) {
+  constexpr std::int64_t kStale = 500'000'000;  // a robot that does not know where it is stands
   const auto found = robots_.find(robot);
-  if (found == robots_.end() || !found->second.follower || !isPresent(found->second, now))
-    return {};
+  if (found == robots_.end() || !found->second.follower) return {};
+  if (now - found->second.stamp > kStale) return {};
   return found->second.follower->steer(found->second.T_map_sensor);
 }
 

@@ -28,7 +28,8 @@ class SearchingTeam {
     return robots_.at(robot).action;
   }
   std::vector<targets::SearchAction> actions() const;
-  /// Velocity along the robot's way; none where it has no way, or has left.
+  /// Velocity along the robot's way; none where it has no way, or its last look is half a second
+  /// old.
   simulation::Velocity steer(const std::string& robot, std::int64_t now);
   std::size_t present(std::int64_t now) const;
   /// Forgets all: the clock was set back.
