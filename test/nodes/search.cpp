@@ -14,7 +14,7 @@
 namespace sightline {
 namespace {
 
-TEST(SearchNode, SendsARobotOnItsWayAndLosesInterestWhereItHasLooked) {
+TEST(SearchNode, SendsARobotOnItsWay) {
   ros::NodeHandle node;
   const auto looks = node.advertise<BearingArray>("red/bearings", 100);
   const auto poses = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("red/pose", 100);
@@ -50,12 +50,6 @@ TEST(SearchNode, SendsARobotOnItsWayAndLosesInterestWhereItHasLooked) {
     return false;
   };
   EXPECT_TRUE(test::comesTrue(is_driven, look));
-  // The robot does not move: it has seen all that is near, and is sent farther.
-  const auto length_of_last = [&] {
-    const auto end = actions.all().back().poses.back().pose.position;
-    return std::hypot(end.x - pose.x(), end.y - pose.y());
-  };
-  EXPECT_TRUE(test::comesTrue([&] { return length_of_last() > 4.0; }, look));
   EXPECT_FALSE(markers.atLeast(1).empty());
   EXPECT_EQ(none.count(), 0U);
 }
