@@ -81,7 +81,7 @@ std_msgs::ColorRGBA targetColour(const targets::Target& target) {
 visualization_msgs::Marker ellipseMarker(const targets::Target& target,
                                          const std_msgs::Header& header) {
   constexpr double kHeight = 0.02;
-  constexpr double kSmallest = 0.08;  // so that a well-known one can still be seen
+  constexpr double kSmallest = 0.3;  // so that a well-known one can still be seen
   auto marker = emptyMarker("targets", visualization_msgs::Marker::CYLINDER, header, kSmallest);
   const geometry::Ellipse ellipse = geometry::covarianceEllipse(target.covariance);
   marker.id = static_cast<int>(target.label);
@@ -95,7 +95,7 @@ visualization_msgs::Marker ellipseMarker(const targets::Target& target,
 
 visualization_msgs::Marker labelMarker(const targets::Target& target,
                                        const std_msgs::Header& header) {
-  constexpr double kLetters = 0.3;
+  constexpr double kLetters = 0.6;
   auto marker =
       emptyMarker("labels", visualization_msgs::Marker::TEXT_VIEW_FACING, header, kLetters);
   marker.id = static_cast<int>(target.label);
@@ -133,6 +133,19 @@ visualization_msgs::MarkerArray toMarkers(const targets::TargetEstimate& estimat
     markers.markers.push_back(ellipseMarker(target, header));
     markers.markers.push_back(labelMarker(target, header));
   }
+  return markers;
+}
+
+visualization_msgs::MarkerArray toMarkers(const logs::Points& truth, std::int64_t stamp,
+                                          const std::string& frame) {
+  constexpr double kSize = 0.12;
+  auto marker = emptyMarker("truth", visualization_msgs::Marker::SPHERE_LIST,
+                            targetsHeader(stamp, frame), kSize);
+  marker.scale.z = kSize;
+  marker.color = colour(1.0F, 1.0F, 1.0F);
+  for (const Eigen::Vector2d& place : truth) marker.points.push_back(toPoint(place, 0.1));
+  visualization_msgs::MarkerArray markers;
+  markers.markers.push_back(marker);
   return markers;
 }
 

@@ -10,7 +10,9 @@
 #include "nodes/sim_sensor_setup.h"
 #include "sightline/bridge/parameters.h"
 #include "sightline/bridge/run_clock.h"
+#include "sightline/bridge/target_messages.h"
 #include "sightline/simulation/simulation.h"
+#include "sightline/targets/target_log.h"
 
 namespace sightline::nodes {
 
@@ -24,6 +26,7 @@ class SimSensorNode {
 
  private:
   void addMover(const SimMoverConfig& mover);
+  void publishTruth();
   void onTimer();
   void step();
   template <class Values>
@@ -37,6 +40,7 @@ class SimSensorNode {
   diagnostic_updater::Updater updater_;
   tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   std::vector<std::unique_ptr<SimRobotTopics>> robots_;
+  ros::Publisher truth_;
   ros::WallTimer timer_;
   ros::SteadyTimer diagnostics_timer_;
   ros::WallTimer end_timer_;
@@ -65,6 +69,7 @@ SimSensorNode::SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node)
         node, robot, setup_.node.map_frame, simulation_, clock_, updater_, static_broadcaster_));
   }
   for (const SimMoverConfig& mover : setup_.movers) addMover(mover);
+  if (!setup_.node.truth.empty()) publishTruth();
   timer_ = node_.createWallTimer(ros::WallDuration(1e-9 * Simulation::kStep),
                                  [this](const ros::WallTimerEvent&) { onTimer(); });
   diagnostics_timer_ = node_.createSteadyTimer(
@@ -73,6 +78,12 @@ SimSensorNode::SimSensorNode(ros::NodeHandle node, ros::NodeHandle private_node)
 
 void SimSensorNode::addMover(const SimMoverConfig& mover) {
   simulation_.addMover(mover.body, simulation::Path::readFile(mover.path), mover.start_pose);
+}
+
+void SimSensorNode::publishTruth() {
+  truth_ = node_.advertise<visualization_msgs::MarkerArray>("target_truth", 1, /*latch=*/true);
+  truth_.publish(bridge::toMarkers(targets::readTargetTruth(setup_.node.truth), /*stamp=*/0,
+                                   setup_.node.map_frame));
 }
 
 void SimSensorNode::onTimer() {

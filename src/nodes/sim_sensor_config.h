@@ -94,9 +94,12 @@ struct SimSensorConfig {
   bool clock = false;
   double speed_factor = 1.0;
   std::string map_frame = "map";
+  std::string truth;  ///< path of a table of targets; empty: none
 
   void visit(config::FieldVisitor& visitor) {
     visitor.path("world", world, "path of the world file; must be set");
+    visitor.path("truth", truth,
+                 "table `kind,id,x,y` of the targets in the world, for target_truth; empty: none");
     visitor.integer("seed", seed, {"1", {0, 1e9}, "of all random errors"});
     visitor.number("duration", duration,
                    {"s", {0.0, 1e9}, "the node ends after so much of the run; 0: never"});

@@ -19,6 +19,9 @@ const RobotConfig& checkedConfig(const RobotConfig& config) {
 Carrier::Carrier(const RobotConfig& config, const geometry::Pose2& T_map_base, std::uint64_t seed)
     : config_(checkedConfig(config)), seed_(seed), robot_(config, T_map_base, seed) {
   path_.add(time_, T_map_base);
+  if (config_.bumps.share == 0.0) return;
+  bumps_.emplace(config_.bumps, seed);
+  remember({0.0, 0.0, 0.0, {0.0, bumps_->pitch()}});
 }
 
 void Carrier::addScanner(const ScannerProfile& profile, const Mounting& mounting,
@@ -78,13 +81,29 @@ void Carrier::move() {
   robot_.step(wanted(), 1e-9 * static_cast<double>(kStep));
   time_ += kStep;
   path_.add(time_, robot_.T_map_base());
-  if (gait_) walkOn();
+  if (gait_) {
+    walkOn();
+  } else if (bumps_) {
+    rollOn();
+  }
 }
 
 void Carrier::walkOn() {
-  constexpr std::size_t kRemembered = 10'000'000'000 / kStep;
   gait_->step(robot_.velocity().linear, 1e-9 * static_cast<double>(kStep));
-  body_motions_.push_back(gait_->motion());
+  remember(gait_->motion());
+}
+
+void Carrier::rollOn() {
+  const Velocity& velocity = robot_.velocity();
+  const double rate =
+      std::abs(velocity.linear) + config_.bumps.wheel_base * std::abs(velocity.angular);
+  bumps_->advance(rate * 1e-9 * static_cast<double>(kStep));
+  remember({0.0, 0.0, 0.0, {0.0, bumps_->pitch()}});
+}
+
+void Carrier::remember(const BodyMotion& motion) {
+  constexpr std::size_t kRemembered = 10'000'000'000 / kStep;
+  body_motions_.push_back(motion);
   if (body_motions_.size() > kRemembered) body_motions_.pop_front();
 }
 
@@ -93,11 +112,11 @@ geometry::Pose2 Carrier::T_map_base(std::int64_t time) const {
 }
 
 BodyMotion Carrier::bodyMotion(std::int64_t time) const {
-  if (!gait_) return {};
+  if (body_motions_.empty()) return {};
   const double ago = static_cast<double>(time_ - time) / static_cast<double>(kStep);
   const auto steps = static_cast<std::size_t>(ago);
   const std::size_t last = body_motions_.size() - 1;
-  // The trunk stood before the person was there as it did first.
+  // The trunk stood before it was there as it did first.
   if (steps >= last) return body_motions_.front();
   return interpolate(body_motions_[last - steps], body_motions_[last - steps - 1],
                      ago - static_cast<double>(steps));
@@ -105,7 +124,9 @@ BodyMotion Carrier::bodyMotion(std::int64_t time) const {
 
 Eigen::Isometry3d Carrier::inMap(std::int64_t time) const {
   const Eigen::Isometry3d T_map_base = geometry::inSpace(this->T_map_base(time));
-  return gait_ ? T_map_base * bodyMotion(time).outOfPlane(gait_config_.height) : T_map_base;
+  if (body_motions_.empty()) return T_map_base;
+  // A robot turns about a point on the floor.
+  return T_map_base * bodyMotion(time).outOfPlane(gait_ ? gait_config_.height : 0.0);
 }
 
 std::int64_t Carrier::Mounted::nextStamp() const {

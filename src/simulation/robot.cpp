@@ -28,6 +28,7 @@ void RobotConfig::visit(config::FieldVisitor& visitor) {
                  {"s", {1e-3, 1e6}, "the robot stops when no command came for this long"});
   visitor.group("odometry", odometry);
   visitor.group("body", body);
+  visitor.group("bumps", bumps);
 }
 
 geometry::Pose2 Drive::step(const Velocity& wanted, double duration) {

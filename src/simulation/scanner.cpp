@@ -100,10 +100,10 @@ std::optional<world::Hit> Scanner::lookNoisily(const world::World& world,
   return look(world, T_map_sensor, angle + sigma * normal_(random_));
 }
 
-// Lambert's law, and an optical gain that is held near to the sensor.
+// What the material returns, and an optical gain that is held near to the sensor.
 double Scanner::intensityOf(const world::Hit& hit, const world::Material& material) const {
   const double ratio = hit.range / profile_.intensity_half_range;
-  return profile_.intensity * material.reflectivity * hit.cos_incidence / (1.0 + ratio * ratio);
+  return profile_.intensity * material.returned(hit.cos_incidence) / (1.0 + ratio * ratio);
 }
 
 double Scanner::noisyRange(double range, double intensity) {

@@ -32,8 +32,9 @@ BearingPrediction predictBearing(const Component& component,
 Component updated(const Component& component, const BearingPrediction& prediction,
                   double innovation) {
   Component result = component;
-  result.mean += prediction.gain * (innovation / prediction.variance);
-  result.covariance -= prediction.gain * prediction.gain.transpose() / prediction.variance;
+  const double variance = prediction.variance + prediction.lasting;
+  result.mean += prediction.gain * (innovation / variance);
+  result.covariance -= prediction.gain * prediction.gain.transpose() / variance;
   return result;
 }
 

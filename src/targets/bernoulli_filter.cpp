@@ -88,6 +88,7 @@ std::vector<Candidate> BernoulliFilter::candidatesOf(const Look& look) {
 
 void BernoulliFilter::update(const BearingSet& set, const SensorModel& model) {
   stamp_ = std::max(stamp_, set.stamp);
+  place_sigma_ = std::max(place_sigma_, model.config().bearing.place_sigma);
   const Look look(set, model);
   std::vector<Candidate> candidates = candidatesOf(look);
   std::vector<Birth> births;
@@ -146,6 +147,13 @@ void BernoulliFilter::label() {
   }
 }
 
+// The heaviest Gaussian's mean; the covariance of all, and of what no bearing tells.
+UncertainPoint BernoulliFilter::placeOf(const Bernoulli& bernoulli) const {
+  UncertainPoint place{bernoulli.mixture.front().mean, momentsOf(bernoulli.mixture).covariance};
+  place.covariance.diagonal().array() += place_sigma_ * place_sigma_;
+  return place;
+}
+
 TargetEstimate BernoulliFilter::estimate() {
   TargetEstimate result;
   result.stamp = stamp_;
@@ -155,9 +163,9 @@ TargetEstimate BernoulliFilter::estimate() {
     result.expected_number += existence;
     result.number_variance += existence * (1.0 - existence);
     if (bernoulli.label == 0 || !isReported(bernoulli)) continue;
-    result.targets.push_back({bernoulli.label, bernoulli.mixture.front().mean,
-                              momentsOf(bernoulli.mixture).covariance, existence,
-                              movingShare(bernoulli.mixture)});
+    const UncertainPoint place = placeOf(bernoulli);
+    result.targets.push_back(
+        {bernoulli.label, place.mean, place.covariance, existence, movingShare(bernoulli.mixture)});
   }
   return result;
 }

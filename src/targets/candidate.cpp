@@ -39,6 +39,8 @@ Candidate::Candidate(std::size_t index, const Bernoulli& bernoulli, const Look& 
   const double scale = 1.0 / look.model().config().visibility.share;
   for (const Component& component : bernoulli.mixture) {
     predictions_.push_back(predictBearing(component, look.pose(), look.sigma()));
+    predictions_.back().lasting =
+        (look.model().config().bearing.inflation - 1.0) * look.sigma() * look.sigma();
     const double visible_detection =
         std::min(0.999, scale * look.detection(component, predictions_.back().polar));
     detections_.push_back(visible_ * visible_detection);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "sightline/config/error.h"
+#include "sightline/targets/place_fit.h"
 
 namespace sightline::targets {
 
@@ -140,16 +141,10 @@ void addCorrelation(const std::vector<KnownLook>& looks, const Labels& labels,
 
 RobotCharacter characterOf(const std::vector<KnownLook>& looks,
                            const std::vector<Eigen::Vector2d>& targets_map,
-                           const CharacterizationConfig& config) {
+                           const CharacterizationConfig& config, PlaceFit& places) {
   RobotCharacter character;
   LabellingConfig labelling = labellingOf(config);
-  const Labels rough = label(looks, targets_map, labelling);
-  character.errors = fitErrors(looks, rough.opportunities, labelling.gate * labelling.sigma);
-  if (character.errors.sigma > 0.0) {
-    labelling.sigma = character.errors.sigma * character.errors.tail;
-    labelling.bias = character.errors.bias;
-    labelling.lag = character.errors.lag;
-  }
+  character.errors = fitErrors(looks, targets_map, labelling);
   const Labels labels = label(looks, targets_map, labelling);
   character.looks = looks.size();
   character.opportunities = labels.opportunities.size();
@@ -163,6 +158,11 @@ RobotCharacter characterOf(const std::vector<KnownLook>& looks,
   const Labels of_apart = label(apart, targets_map, labelling);
   character.visibility =
       fitVisibility(predictionsOf(apart, of_apart.opportunities, character.table));
+  // The errors of these labels are those that bias and lag leave.
+  ErrorFit left = character.errors;
+  left.bias = left.lag = 0.0;
+  character.error_inflation = inflationOf(apart, of_apart.opportunities, left);
+  places.add(apart, of_apart.opportunities, targets_map, left, character.error_inflation);
   return character;
 }
 
@@ -230,6 +230,8 @@ SensorModelConfig RobotCharacter::model() const {
   model.bearing.sigma = std::max(errors.sigma, 1e-4);
   model.bearing.bias = errors.bias;
   model.bearing.tail = std::min(errors.tail, 10.0);
+  model.bearing.inflation = std::min(error_inflation, 1e4);
+  model.bearing.place_sigma = std::min(place_sigma, 10.0);
   model.clutter = {clutter_mean, 1.0, 0.0};
   return model;
 }
@@ -259,14 +261,16 @@ Characterization characterize(const std::vector<KnownLook>& looks,
   followThePaper(looks, targets_map, config, result);
   double inflated = 0.0;
   double opportunities = 0.0;
+  PlaceFit places;
   for (std::size_t robot = 0; robot < names.size(); ++robot) {
     const std::vector<KnownLook> own = looksOf(looks, robot);
     if (own.size() < kFewest) continue;
-    const RobotCharacter character = characterOf(own, targets_map, config);
+    const RobotCharacter character = characterOf(own, targets_map, config, places);
     inflated += character.inflation * static_cast<double>(character.opportunities);
     opportunities += static_cast<double>(character.opportunities);
     result.robots[names[robot]] = character;
   }
+  for (auto& [name, robot] : result.robots) robot.place_sigma = places.sigma();
   const double inflation = opportunities > 0.0 ? inflated / opportunities : 1.0;
   result.detection =
       fitDetectionLikelihood(result.paper_labels.opportunities, config.beam_spacing, inflation);

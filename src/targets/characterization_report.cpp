@@ -53,11 +53,11 @@ void addRobot(const std::string& name, const RobotCharacter& robot,
                   static_cast<double>(robot.detected) /
                       static_cast<double>(std::max<std::size_t>(robot.opportunities, 1))));
   if (errors.sigma > 0.0) {
-    lines.push_back(
-        fmt::format("  sigma {:.3f} deg, bias {:.3f} deg, lag {:.1f} +- {:.1f} ms, with tails "
-                    "{:.2f} times sigma",
-                    geometry::degrees(errors.sigma), geometry::degrees(errors.bias),
-                    1e3 * errors.lag, 1e3 * errors.lag_sigma, errors.tail));
+    lines.push_back(fmt::format(
+        "  sigma {:.3f} deg, bias {:.3f} deg, lag {:.1f} +- {:.1f} ms, with tails "
+        "{:.2f} times sigma; errors last: the mean of many has {:.1f} times the variance",
+        geometry::degrees(errors.sigma), geometry::degrees(errors.bias), 1e3 * errors.lag,
+        1e3 * errors.lag_sigma, errors.tail, robot.error_inflation));
   } else {
     lines.push_back("  sigma, bias, lag: undetermined by so few detections");
   }
@@ -77,6 +77,11 @@ std::vector<std::string> Characterization::report() const {
   addPaper(*this, lines);
   addLikelihood(*this, lines);
   for (const auto& [name, robot] : robots) addRobot(name, robot, lines);
+  if (!robots.empty()) {
+    lines.push_back(
+        fmt::format("targets are {:.3f} m in x and in y from where all bearings see them",
+                    robots.begin()->second.place_sigma));
+  }
   return lines;
 }
 

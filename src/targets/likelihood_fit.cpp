@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "sightline/geometry/statistics.h"
@@ -69,6 +70,31 @@ double detectionLikelihood(const std::vector<RangeBin>& bins, double beam_spacin
   return sum;
 }
 
+// Counts by range and bearing: eq. 1 says that nothing depends on the bearing within the view. Each
+// cell has the mean range of what is in it.
+std::vector<RangeBin> cellsOf(const std::vector<Opportunity>& opportunities) {
+  constexpr double kRangeStep = 0.5;
+  constexpr double kQuarters = 4.0;
+  const auto by_bearing = [](const Opportunity& a, const Opportunity& b) {
+    return a.place.bearing < b.place.bearing;
+  };
+  const auto [first, last] =
+      std::minmax_element(opportunities.begin(), opportunities.end(), by_bearing);
+  const double step = std::max(last->place.bearing - first->place.bearing, 1e-9) / kQuarters;
+  std::map<std::pair<int, int>, RangeBin> cells;
+  for (const Opportunity& one : opportunities) {
+    const double quarter = (one.place.bearing - first->place.bearing) / step;
+    RangeBin& cell = cells[{static_cast<int>(one.place.range / kRangeStep),
+                            static_cast<int>(std::min(quarter, kQuarters - 1.0))}];
+    cell.tried += 1.0;
+    cell.detected += one.is_detected ? 1.0 : 0.0;
+    cell.range += (one.place.range - cell.range) / cell.tried;
+  }
+  std::vector<RangeBin> result;
+  for (const auto& [key, cell] : cells) result.push_back(cell);
+  return result;
+}
+
 double saturated(const std::vector<RangeBin>& bins) {
   double sum = 0.0;
   for (const RangeBin& bin : bins) sum += logLikelihood(bin.detected, bin.tried, bin.share());
@@ -102,7 +128,7 @@ DetectionLikelihood fitDetectionLikelihood(const std::vector<Opportunity>& oppor
     miss_profile.push_back(of_diameter(maximise(of_diameter, 0.0, diameters.back())));
   }
   result.false_negative = intervalOf(misses, miss_profile, drop);
-  const std::vector<RangeBin> wide = binByRange(opportunities);
+  const std::vector<RangeBin> wide = cellsOf(opportunities);
   const double at_best = detectionLikelihood(wide, beam_spacing, result.target_diameter.value,
                                              result.false_negative.value);
   result.deviance = 2.0 * (saturated(wide) - at_best) / inflation;
@@ -162,121 +188,6 @@ ClutterLikelihood fitClutterLikelihood(const std::vector<ClutterBearing>& clutte
   }
   result.peak_width = intervalOf(widths, width_profile, kProfileDrop);
   result.uniform_share = intervalOf(shares, share_profile, kProfileDrop);
-  return result;
-}
-
-namespace {
-
-// A Gaussian, a wider one of the same mean, and an even background, by expectation maximisation.
-struct ErrorMixture {
-  static constexpr double kWide = 2.5;  // standard deviation of the wider one, in those of the core
-
-  double sigma;
-  double bias = 0.0;
-  double core = 0.6;  // shares
-  double wide = 0.2;
-
-  static double gaussianAt(double scaled, double sigma) {
-    return std::exp(-0.5 * scaled * scaled) / (sigma * std::sqrt(2.0 * geometry::kPi));
-  }
-
-  // Probabilities that an error is of the core, and of the wider one.
-  std::pair<double, double> belongs(double error, double gate) const {
-    const double scaled = (error - bias) / sigma;
-    const double of_core = core * gaussianAt(scaled, sigma);
-    const double of_wide = wide * gaussianAt(scaled / kWide, kWide * sigma);
-    const double sum = of_core + of_wide + (1.0 - core - wide) / (2.0 * gate);
-    return {of_core / sum, of_wide / sum};
-  }
-
-  void step(const std::vector<double>& errors, double gate) {
-    double cores = 0.0;
-    double wides = 0.0;
-    double weights = 0.0;
-    double sum = 0.0;
-    double squares = 0.0;
-    for (const double error : errors) {
-      const auto [of_core, of_wide] = belongs(error, gate);
-      // The wider one's errors, scaled to the core's.
-      const double weight = of_core + of_wide / (kWide * kWide);
-      cores += of_core;
-      wides += of_wide;
-      weights += weight;
-      sum += weight * error;
-      squares += weight * error * error;
-    }
-    bias = sum / weights;
-    sigma = std::sqrt(std::max((squares - weights * bias * bias) / (cores + wides), 1e-10));
-    const auto count = static_cast<double>(errors.size());
-    core = std::min(cores / count, 1.0 - 1e-6);
-    wide = std::min(wides / count, 1.0 - 1e-6 - core);
-  }
-
-  // Standard deviation of both Gaussians together over that of the core.
-  double tail() const { return std::sqrt((core + kWide * kWide * wide) / (core + wide)); }
-};
-
-ErrorMixture mixtureOf(const std::vector<double>& errors, double gate) {
-  ErrorMixture mixture{gate / 3.0};
-  for (int i = 0; i < 200; ++i) mixture.step(errors, gate);
-  return mixture;
-}
-
-// What is left of errors when those of a lag are taken away.
-std::vector<double> withoutLag(const std::vector<KnownLook>& looks,
-                               const std::vector<Opportunity>& labelled, double lag) {
-  std::vector<double> errors;
-  for (const Opportunity& one : labelled) {
-    if (one.is_detected) errors.push_back(one.error - lag * looks[one.look].turn_rate);
-  }
-  return errors;
-}
-
-// Sums of the regression of errors on the turn rate.
-struct LagSums {
-  double rates = 0.0;
-  double products = 0.0;
-
-  void add(double weight, double rate, double error) {
-    rates += weight * rate * rate;
-    products += weight * rate * error;
-  }
-};
-
-// Weighs each error by how much of it belongs to the Gaussians once the lag found so far is gone.
-LagSums lagSums(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
-                const ErrorMixture& mixture, double lag, double gate) {
-  LagSums sums;
-  for (const Opportunity& one : labelled) {
-    if (!one.is_detected) continue;
-    const double rate = looks[one.look].turn_rate;
-    const auto [core, wide] = mixture.belongs(one.error - lag * rate, gate);
-    const double kept = core + wide / (ErrorMixture::kWide * ErrorMixture::kWide);
-    sums.add(kept, rate, one.error - mixture.bias);
-  }
-  return sums;
-}
-
-}  // namespace
-
-ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
-                   double gate) {
-  constexpr std::size_t kFewest = 30;
-  constexpr int kRounds = 15;
-  ErrorFit result;
-  result.used = withoutLag(looks, labelled, 0.0).size();
-  if (result.used < kFewest) return result;
-  ErrorMixture mixture{gate / 3.0};
-  for (int round = 0; round < kRounds; ++round) {
-    mixture = mixtureOf(withoutLag(looks, labelled, result.lag), gate);
-    const LagSums sums = lagSums(looks, labelled, mixture, result.lag, gate);
-    if (sums.rates <= 0.0) break;
-    result.lag = sums.products / sums.rates;
-    result.lag_sigma = mixture.sigma / std::sqrt(sums.rates);
-  }
-  result.sigma = mixture.sigma;
-  result.bias = mixture.bias;
-  result.tail = mixture.tail();
   return result;
 }
 

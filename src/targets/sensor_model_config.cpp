@@ -93,6 +93,17 @@ void BearingConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("bias", bias, {"rad", {-1.0, 1.0}, "measured less true bearing"});
   visitor.number("tail", tail,
                  {"1", {1.0, 10.0}, "factor on sigma in filters, for errors with heavy tails"});
+  visitor.number(
+      "inflation", inflation,
+      {"1",
+       {1.0, 1e4},
+       "variance of the mean of many bearings of a target over that of independent ones, "
+       "for errors that last over looks"});
+  visitor.number("place_sigma", place_sigma,
+                 {"m",
+                  {0.0, 10.0},
+                  "standard deviation, in x and in y, of where a target is from where all bearings "
+                  "see it; part of the covariance of every target"});
 }
 
 void ClutterConfig::visit(config::FieldVisitor& visitor) {

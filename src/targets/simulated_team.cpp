@@ -74,8 +74,12 @@ void BearingSampler::sample(const std::vector<Eigen::Vector2d>& targets_map,
   for (int i = 0; i < clutter; ++i) add(clutterBearing(), std::nullopt, set);
 }
 
-SimulatedTeam::SimulatedTeam(const TeamConfig& config, std::uint64_t seed)
-    : config_(config), model_(config.model), random_(seed), sampler_(model_, seed ^ kSamplerSeed) {
+SimulatedTeam::SimulatedTeam(const TeamConfig& config, std::uint64_t seed,
+                             std::shared_ptr<const LineOfSight> sight)
+    : config_(config),
+      model_(config.model, std::move(sight)),
+      random_(seed),
+      sampler_(model_, seed ^ kSamplerSeed) {
   config::validate(config_);
   placeTargets();
   members_.resize(static_cast<std::size_t>(config_.robots));
@@ -115,9 +119,10 @@ void SimulatedTeam::drive(Member& member) {
   while (left > 0.0) {
     const Eigen::Vector2d way = member.goal - at;
     const double step = std::min(left, way.norm());
-    heading = std::atan2(way.y(), way.x());
+    if (step > 0.0) heading = std::atan2(way.y(), way.x());
     at += step * Eigen::Vector2d(std::cos(heading), std::sin(heading));
     left -= step;
+    if (left > 0.0 && member.is_sent) break;
     if (left > 0.0) member.goal = place(0.0);
   }
   member.T_map_sensor = {at, heading};
@@ -157,6 +162,17 @@ SimulatedSet SimulatedTeam::look(std::size_t robot) {
   set.set.range_max = model_.config().detection.range_max;
   sampler_.sample(targets_map_, member.visible, set);
   return set;
+}
+
+void SimulatedTeam::send(std::size_t robot, const Eigen::Vector2d& place_map) {
+  members_[robot].goal = place_map;
+  members_[robot].is_sent = true;
+}
+
+bool SimulatedTeam::hasArrived(std::size_t robot) const {
+  constexpr double kThere = 1e-6;
+  const Member& member = members_[robot];
+  return member.is_sent && (member.goal - member.T_map_sensor.translation()).norm() < kThere;
 }
 
 std::vector<SimulatedSet> SimulatedTeam::step() {

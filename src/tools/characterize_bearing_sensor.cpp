@@ -4,10 +4,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "program/program.h"
+#include "sightline/bridge/bright_scan_picture.h"
 #include "sightline/bridge/known_looks.h"
 #include "sightline/config/error.h"
 #include "sightline/config/yaml_writer.h"
@@ -23,8 +25,10 @@ struct SensorJob {
   std::string config;
   std::string truth;
   std::string out;
-  double beam_spacing = 1.0;  // [deg]
-  double sigma = 2.25;        // [deg]
+  std::optional<std::string> scan;  // topic of scans with intensities
+  double beam_spacing = 1.0;        // [deg]
+  double sigma = 2.25;              // [deg]
+  double threshold = targets::BearingDetectorConfig{}.threshold;
 };
 
 void showProgress(double ratio) {
@@ -42,6 +46,14 @@ void writeModels(const targets::Characterization& found, const std::string& path
           "(SensorModelsConfig).\n"
        << config::toYaml(found.models());
   if (!file) throw config::Error(path, 0, "", "cannot be written");
+}
+
+void drawScan(const SensorJob& job) {
+  targets::BearingDetectorConfig detector;
+  detector.threshold = job.threshold;
+  const auto scan = bridge::brightestScan(job.in, *job.scan, targets::BearingDetector(detector));
+  if (!scan) throw config::Error(job.in.front(), 0, *job.scan, "no scan with intensities");
+  bridge::drawBrightScan(*scan, detector, (std::filesystem::path(job.out) / "scan.png").string());
 }
 
 int characterizeSensors(const SensorJob& job) {
@@ -63,6 +75,7 @@ int characterizeSensors(const SensorJob& job) {
   std::filesystem::create_directories(job.out);
   writeModels(found, (std::filesystem::path(job.out) / "sensor_models.yaml").string());
   bridge::drawCharacterization(found, config, job.out);
+  if (job.scan) drawScan(job);
   if (recorded.without_pose > 0) {
     std::printf("%zu looks left out: no pose\n", recorded.without_pose);
   }
@@ -84,5 +97,9 @@ int main(int argc, char** argv) {
   program.requiredOption("--out", job.out, "DIR", "folder for sensor_models.yaml and the pictures");
   program.option("--beam-spacing", job.beam_spacing, "DEGREES", "theta_sep of eq. 1, by default 1");
   program.option("--sigma", job.sigma, "DEGREES", "for the first labels, by default 2.25");
+  program.option("--scan", job.scan, "TOPIC",
+                 "of scans with intensities, for a picture after figure 4 of one of them");
+  program.option("--threshold", job.threshold, "INTENSITY",
+                 "of bearing_detector, for that picture; by default 11000");
   return program.run(argc, argv, [&] { return characterizeSensors(job); });
 }

@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "nodes/bearing_detector_config.h"
 #include "nodes/gaze_config.h"
 #include "nodes/laser_odometry_config.h"
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
+#include "nodes/search_config.h"
 #include "nodes/sim_sensor_config.h"
 #include "nodes/sync_scan_driver_config.h"
 #include "nodes/target_tracker_config.h"
@@ -68,7 +70,11 @@ std::vector<Section> estimatorSections() {
               "Parameters of the node.",
               {{"config", "path", "(empty)", "-", "any",
                 "the file of estimators that `offline` takes, too; must be set"}}},
+      sectionOf<nodes::BearingDetectorNodeConfig>(
+          "bearing_detector",
+          "Parameters of the node. `config/bearing_detector.yaml` holds them with their defaults."),
       sectionOf<nodes::TargetTrackerNodeConfig>("target_tracker", "Parameters of the node."),
+      sectionOf<nodes::SearchNodeConfig>("search", "Parameters of the node."),
       sectionOf<nodes::GazeNodeConfig>("gaze", "Parameters of the node."),
   };
 }

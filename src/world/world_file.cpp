@@ -71,9 +71,20 @@ class WorldFile {
 
   void readMaterials(const config::Node& node) {
     for (const auto& [name, material] : node.entries()) {
-      material.allowOnly({"reflectivity"});
-      world_.addMaterial({name, material.at("reflectivity").number(config::kPositive)});
+      material.allowOnly({"reflectivity", "lobe"});
+      const double reflectivity = material.at("reflectivity").number(config::kPositive);
+      const Lobe lobe = material.has("lobe") ? lobeOf(material.at("lobe")) : Lobe{};
+      world_.addMaterial({name, reflectivity, lobe});
     }
+  }
+
+  static Lobe lobeOf(const config::Node& node) {
+    node.allowOnly({"gain", "half_width", "steepness"});
+    Lobe lobe;
+    lobe.gain = node.at("gain").number({0.0, 1e6});
+    lobe.half_width = node.at("half_width").number({1e-9, 2.0});
+    lobe.steepness = node.numberOr("steepness", lobe.steepness, {0.1, 100.0});
+    return lobe;
   }
 
   void readIncludes(const config::Node& document) {

@@ -1,28 +1,71 @@
 // Figures of bearing-only targets, one a line: `name value unit`; lines that start with # explain.
+//
+// usage: bench_targets [PART...], all by default; SIGHTLINE_BENCH_SEEDS=N takes N seeds at most.
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include <fmt/format.h>
 
+#include "targets/detector.h"
 #include "targets/fit.h"
+#include "targets/node.h"
 #include "targets/real.h"
+#include "targets/real_sensor.h"
+#include "targets/search.h"
 #include "targets/team.h"
 
-int main() {
-  using namespace sightline;
-  constexpr int kSeeds = 20;
-  bench::measureClutter();
-  bench::measureTeams(kSeeds);
-  bench::measureFits(kSeeds);
-  bench::measureWrongModels(4);
-  bench::measureScale(3);
+namespace {
+
+using namespace sightline;
+
+// Seeds of everything, by SIGHTLINE_BENCH_SEEDS where it is set: fewer for a quick look.
+int seedsOf(int usual) {
+  const char* asked = std::getenv("SIGHTLINE_BENCH_SEEDS");
+  return asked ? std::clamp(std::atoi(asked), 1, usual) : usual;
+}
+
+void measureRealTeam() {
   const char* data = std::getenv("SIGHTLINE_DATA");
   const std::filesystem::path folder = std::filesystem::path(data ? data : "") / "mrclam6";
   if (data && std::filesystem::exists(folder)) {
-    bench::measureReal(folder.string());
+    bench::measureRealSensors(folder.string());
+    bench::measureReal(folder.string(), seedsOf(8));
   } else {
     fmt::print("# targets.real: left out, SIGHTLINE_DATA holds no mrclam6\n");
+  }
+}
+
+struct Part {
+  const char* name;
+  std::function<void()> measure;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int seeds = seedsOf(20);
+  const Part parts[] = {
+      {"clutter", [] { bench::measureClutter(); }},
+      {"detector", [&] { bench::measureDetector(seedsOf(6)); }},
+      {"team", [&] { bench::measureTeams(seeds); }},
+      {"fit", [&] { bench::measureFits(seeds); }},
+      {"search", [&] { bench::measureSearch(seeds); }},
+      {"wrong", [] { bench::measureWrongModels(seedsOf(4)); }},
+      {"scale", [] { bench::measureScale(seedsOf(3)); }},
+      {"node", [] { bench::measureTrackerNode(60.0); }},
+      {"real", measureRealTeam},
+  };
+  for (const Part& part : parts) {
+    const bool is_asked =
+        argc < 2 || std::find(argv + 1, argv + argc, std::string(part.name)) != argv + argc;
+    if (!is_asked) continue;
+    fmt::print(stderr, "targets: {}\n", part.name);
+    part.measure();
+    std::fflush(stdout);
   }
   return 0;
 }

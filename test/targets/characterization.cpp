@@ -137,6 +137,36 @@ TEST(Errors, FindBiasAndLagInTails) {
   EXPECT_NEAR(fit.tail, std::sqrt(0.9 + 0.1 * 6.25), 0.05);
 }
 
+// Errors of a first-order process: the sum of its correlations is known.
+TEST(Errors, ThatLastDoNotAverageOut) {
+  for (const double kept : {0.0, 0.8}) {
+    test::Gauss gauss(4);
+    const std::vector<KnownLook> looks(6000);
+    std::vector<Opportunity> labelled;
+    double error = 0.0;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      error = kept * error + gauss(0.01 * std::sqrt(1.0 - kept * kept));
+      labelled.push_back({i, 0, {2.0, 0.0}, true, error + 0.02});
+    }
+    ErrorFit fit;
+    fit.sigma = 0.01;
+    fit.bias = 0.02;
+    const double expected = (1.0 + kept) / (1.0 - kept);
+    EXPECT_NEAR(inflationOf(looks, labelled, fit), expected, 0.2 * expected) << kept;
+  }
+}
+
+TEST(Bernoulli, TakesLessOfBearingsWhoseErrorsLast) {
+  Component component;
+  component.mean = {2.0, 0.0};
+  BearingPrediction prediction = predictBearing(component, {}, 0.1);
+  const double independent = updated(component, prediction, 0.1).covariance(1, 1);
+  prediction.lasting = 0.2;
+  const Component lasting = updated(component, prediction, 0.1);
+  EXPECT_GT(lasting.covariance(1, 1), independent);
+  EXPECT_LT(lasting.covariance(1, 1), component.covariance(1, 1));
+}
+
 TEST(Characterization, NeedsTargetsAndLooks) {
   EXPECT_EQ(test::errorOf([] { characterize({}, {}, {}, {}); }).key(), "targets");
   EXPECT_EQ(test::errorOf([] { characterize({}, {}, {{1.0, 0.0}}, {}); }).key(), "looks");

@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "nodes/bearing_detector_config.h"
 #include "nodes/gaze_config.h"
 #include "nodes/line_extractor_config.h"
 #include "nodes/room_tracker_config.h"
+#include "nodes/search_config.h"
 #include "nodes/target_tracker_config.h"
 #include "sightline/pipeline/estimators_config.h"
 #include "sightline/pipeline/scan_odometry.h"
@@ -98,6 +100,8 @@ TEST(ShippedFiles, Parameters) {
   expectParameters<nodes::GazeNodeConfig>("gaze_turret.yaml");
   expectParameters<nodes::RoomTrackerNodeConfig>("room_tracker.yaml");
   expectParameters<nodes::TargetTrackerNodeConfig>("target_tracker.yaml");
+  expectParameters<nodes::BearingDetectorNodeConfig>("bearing_detector.yaml");
+  expectParameters<nodes::SearchNodeConfig>("search.yaml");
 }
 
 TEST(ShippedFiles, EveryConfigurationHasARoomAbove) {
@@ -115,6 +119,8 @@ TEST(ShippedFiles, EveryConfigurationHasARoomAbove) {
                                          "line_extractor.yaml",
                                          "room_tracker.yaml",
                                          "bearing_sensors",
+                                         "bearing_detector.yaml",
+                                         "search.yaml",
                                          "target_tracker.yaml"};
     EXPECT_NE(std::find(known.begin(), known.end(), folder), known.end())
         << file << " is loaded by no test";
@@ -130,6 +136,9 @@ TEST(ShippedFiles, Launch) {
     std::string arguments;
     if (file.find("replay") != std::string::npos) arguments = " bag:=a.bag config:=a.yaml";
     if (file.find("room_tracker") != std::string::npos) arguments = " rooms:=rooms.yaml";
+    if (file.find("team_robot") != std::string::npos) {
+      arguments = " robot:=r rooms:=rooms.yaml start:=[0,0,0]";
+    }
     const auto result = test::runCommand("roslaunch --nodes " + file + arguments);
     EXPECT_EQ(result.status, 0) << file << ": " << result.output;
     EXPECT_NE(result.output.find('/'), std::string::npos) << file << " starts nothing";

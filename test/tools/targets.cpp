@@ -106,6 +106,18 @@ TEST(Targets, SayWhatIsMissing) {
   EXPECT_THAT(run("targets: {robots: [robot1], models: none.yaml}\n", "targets").output,
               HasSubstr("none.yaml"));
   EXPECT_EQ(runProgram("mrclam_to_bag", "nowhere " + bag).status, 1);
+  const auto blind = folder.write("blind.yaml", "targets: {robots: [robot1], pose_topic: none}\n");
+  EXPECT_THAT(runProgram("characterize_bearing_sensor",
+                         fmt::format("--config {} --targets {}.truth.csv --out {} {}", blind, bag,
+                                     folder.path("models"), bag))
+                  .output,
+              HasSubstr("no look has a pose"));
+  EXPECT_THAT(runProgram("characterize_bearing_sensor",
+                         fmt::format("--config {} --targets {}.truth.csv --out {} --scan /scan {}",
+                                     folder.write("team.yaml", "targets: {robots: [robot1]}\n"),
+                                     bag, folder.path("models"), bag))
+                  .output,
+              HasSubstr("no scan with intensities"));
 }
 
 }  // namespace

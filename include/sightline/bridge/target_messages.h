@@ -8,6 +8,7 @@
 #include <sightline/TargetArray.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include "sightline/logs/ospa.h"
 #include "sightline/targets/target_filter.h"
 
 namespace sightline::bridge {
@@ -22,6 +23,9 @@ geometry::UncertainPose2 toUncertainPose2(const geometry_msgs::PoseWithCovarianc
 TargetArray toMessage(const targets::TargetEstimate& estimate, const std::string& frame);
 /// Ellipses that hold 95 %, with the label of each target above it.
 visualization_msgs::MarkerArray toMarkers(const targets::TargetEstimate& estimate,
+                                          const std::string& frame);
+/// Places where targets truly are, [m] in the frame.
+visualization_msgs::MarkerArray toMarkers(const logs::Points& truth, std::int64_t stamp,
                                           const std::string& frame);
 /// Probability of a target in each cell, in percent.
 nav_msgs::OccupancyGrid toMessage(const targets::IntensityGrid& grid, std::int64_t stamp,

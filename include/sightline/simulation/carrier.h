@@ -9,6 +9,7 @@
 
 #include "sightline/motion/pose_history.h"
 #include "sightline/simulation/active_sensor.h"
+#include "sightline/simulation/bumps.h"
 #include "sightline/simulation/gait.h"
 #include "sightline/simulation/outputs.h"
 #include "sightline/simulation/path.h"
@@ -72,7 +73,7 @@ class Carrier {
   /// Pose of the carrier in the plane, gait and all; [0, time()] but no more than the last ten
   /// seconds.
   geometry::Pose2 T_map_base(std::int64_t time) const;
-  /// Motion of a person's trunk at such a time; nothing moves on a robot.
+  /// Motion of a person's trunk at such a time, or the tilt of a robot on a bump.
   BodyMotion bodyMotion(std::int64_t time) const;
 
  private:
@@ -89,6 +90,8 @@ class Carrier {
   };
   Velocity wanted();
   void walkOn();
+  void rollOn();
+  void remember(const BodyMotion& motion);
   bool isReportDue() const;
   ReportedMotion inertialMotion(std::size_t index) const;
   Eigen::Isometry3d inMap(std::int64_t time) const;
@@ -112,6 +115,7 @@ class Carrier {
   motion::PoseHistory path_;  // T_map_base without the gait
   GaitConfig gait_config_;
   std::optional<Gait> gait_;
+  std::optional<Bumps> bumps_;           // of a robot on a floor that has some
   std::deque<BodyMotion> body_motions_;  // one a step; the last one is that of now
 };
 

@@ -6,6 +6,7 @@
 #include "sightline/geometry/pose2.h"
 #include "sightline/motion/odometry_noise.h"
 #include "sightline/simulation/body.h"
+#include "sightline/simulation/bumps.h"
 #include "sightline/simulation/wheel_odometry.h"
 
 namespace sightline::simulation {
@@ -47,7 +48,8 @@ class Drive {
 struct RobotConfig : DriveLimits {
   double command_timeout = 0.5;  ///< [s]
   motion::OdometryNoise odometry;
-  Body body;  ///< what other robots see of it
+  Body body;         ///< what other robots see of it
+  BumpConfig bumps;  ///< of the floor that it drives on
 
   void visit(config::FieldVisitor& visitor);
 };

@@ -40,6 +40,8 @@ struct BearingPrediction {
   Polar polar;            ///< of the component's mean
   Eigen::Vector2d gain;   ///< P Hᵀ [m rad]
   double variance = 0.0;  ///< of the innovation: point, pose and sensor [rad²]
+  /// Added to it where the bearing is made use of, for errors that last over looks [rad²].
+  double lasting = 0.0;
 };
 
 /// Bearing of a point and its derivatives by point and by pose (x, y, θ).

@@ -48,10 +48,12 @@ class BernoulliFilter : public TargetFilter {
   void prune();
   bool isReported(const Bernoulli& bernoulli) const;
   void label();
+  UncertainPoint placeOf(const Bernoulli& bernoulli) const;
 
   BernoulliFilterConfig config_;
   Undetected undetected_;
   std::vector<Bernoulli> bernoullis_;
+  double place_sigma_ = 0.0;  // largest of the models so far [m]
   std::int64_t stamp_ = 0;
   std::uint32_t labels_ = 0;
 };

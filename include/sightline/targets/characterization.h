@@ -39,6 +39,8 @@ struct RobotCharacter {
   double independent_after = 0.0;  ///< time after which looks are nearly independent [s]
   double inflation = 1.0;          ///< variance of counts over that of independent looks
   VisibilityConfig visibility;
+  double error_inflation = 1.0;  ///< of bearings' errors, as inflationOf
+  double place_sigma = 0.0;      ///< of all robots together, as PlaceFit [m]
 
   /// The model for filters and simulations.
   SensorModelConfig model() const;

@@ -20,7 +20,7 @@ struct Fitted {
 struct DetectionLikelihood {
   Fitted false_negative;
   Fitted target_diameter;  ///< [m]
-  double deviance = 0.0;   ///< of the model against the share of each 0.2 m bin
+  double deviance = 0.0;   ///< of the model against the shares by range and bearing
   double limit = 0.0;      ///< that a model which holds exceeds once in a thousand
   bool isRefused() const { return deviance > limit; }
 };
@@ -52,5 +52,15 @@ struct ErrorFit {
 /// without bias and lag.
 ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
                    double gate);
+/// The same by labels that know bias and lag better each time: those without draw bearings to the
+/// wrong one of two neighbours. σ is of the first, widest labels, which cut none of it off.
+/// `labelling` is left with what was found.
+ErrorFit fitErrors(const std::vector<KnownLook>& looks,
+                   const std::vector<Eigen::Vector2d>& targets_map, LabellingConfig& labelling);
+/// Variance of the mean of many errors of a target over that of independent ones, 1 + 2 Σ ρ_k, by
+/// the correlation of errors k detections apart up to where it is lost; looks are those of one
+/// robot.
+double inflationOf(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
+                   const ErrorFit& fit);
 
 }  // namespace sightline::targets

@@ -57,6 +57,11 @@ struct BearingConfig {
   double sigma = geometry::radians(2.25);  ///< standard deviation [rad]
   double bias = 0.0;                       ///< measured less true bearing [rad]
   double tail = 1.0;  ///< factor on σ in filters, for errors with heavier tails than a Gaussian
+  /// Variance of the mean of many bearings of one target over that of independent ones: errors that
+  /// last over looks do not average out.
+  double inflation = 1.0;
+  /// Standard deviation, in x and in y, of where a target is from where all bearings see it [m].
+  double place_sigma = 0.0;
 
   void visit(config::FieldVisitor& visitor);
 };

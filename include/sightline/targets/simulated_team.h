@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <random>
 #include <vector>
@@ -58,7 +59,9 @@ class BearingSampler {
 
 class SimulatedTeam {
  public:
-  SimulatedTeam(const TeamConfig& config, std::uint64_t seed);
+  /// `sight` may be empty: then nothing hides a target.
+  SimulatedTeam(const TeamConfig& config, std::uint64_t seed,
+                std::shared_ptr<const LineOfSight> sight = nullptr);
 
   const std::vector<Eigen::Vector2d>& targets() const { return targets_map_; }
   const SensorModel& model() const { return model_; }
@@ -66,10 +69,18 @@ class SimulatedTeam {
   /// One set of each robot, then the robots drive on for a period.
   std::vector<SimulatedSet> step();
 
+  /// Makes a robot drive straight to a place and wait there, from now on.
+  void send(std::size_t robot, const Eigen::Vector2d& place_map);
+  bool hasArrived(std::size_t robot) const;  ///< whether a robot that was sent waits
+  const geometry::Pose2& T_map_sensor(std::size_t robot) const {  ///< true, at the next step
+    return members_[robot].T_map_sensor;
+  }
+
  private:
   struct Member {
     geometry::Pose2 T_map_sensor;
     Eigen::Vector2d goal;
+    bool is_sent = false;                             // to the goal, by somebody
     Eigen::Vector3d error = Eigen::Vector3d::Zero();  // of the reported pose
     std::vector<bool> visible;                        // by target
     int looks = 0;

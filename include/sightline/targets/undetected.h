@@ -34,6 +34,8 @@ class Undetected {
             const FieldOfView& field_of_view);
   /// Returns some of a target's mass that is no longer kept apart.
   void add(const Eigen::Vector2d& point_map, double mass);
+  /// Makes the grid hold all within a radius [m] of a place.
+  void cover(const Eigen::Vector2d& centre_map, double radius);
   double mass() const;  ///< expected number on the grid
   const IntensityGrid& grid() const { return grid_; }
 
@@ -44,7 +46,6 @@ class Undetected {
   };
   bool isInside(const Eigen::Vector2d& point_map) const;
   double priorAt(const Eigen::Vector2d& point_map) const;
-  void cover(const Eigen::Vector2d& centre_map, double radius);
   void reshape(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
   std::optional<std::size_t> cellOf(const Eigen::Vector2d& point_map) const;
   Eigen::Vector2d centreOf(std::size_t column, std::size_t row) const;

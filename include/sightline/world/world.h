@@ -9,16 +9,10 @@
 
 #include "sightline/config/node.h"
 #include "sightline/geometry/segment.h"
+#include "sightline/world/material.h"
 #include "sightline/world/room_map.h"
 
 namespace sightline::world {
-
-/// Response of a surface to light.
-struct Material {
-  std::string name = "plaster";
-  /// Share of the light that comes back diffusely, above 0; retro-reflectors exceed 1.
-  double reflectivity = 0.7;
-};
 
 /// An upright plane piece: a wall, a side of a piece of furniture.
 struct WorldSegment {
@@ -67,6 +61,7 @@ struct Hit {
 /// walls: {height: 2.5, material: plaster}     # of these walls; this is the default
 /// materials:                          # besides plaster
 ///   cloth: {reflectivity: 0.3}
+///   steel: {reflectivity: 0.5, lobe: {gain: 4.0, half_width: 0.05, steepness: 2.0}}   # -, rad, -
 /// floor: {material: cloth}            # optional: a ray that goes down meets it
 /// ceiling: {height: 2.5, material: plaster}   # optional
 /// segments:

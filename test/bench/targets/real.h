@@ -94,8 +94,7 @@ class RealTeam {
   test::TemporaryFolder folder_;
 };
 
-inline void measureReal(const std::string& data) {
-  constexpr int kRuns = 8;
+inline void measureReal(const std::string& data, int runs) {
   const std::string jitter = "--position-sigma 0.001 --heading-sigma 0.02";
   RealTeam team(data);
   int refused =
@@ -103,18 +102,18 @@ inline void measureReal(const std::string& data) {
   refused += team.linesWith("theta_c: undetermined") + team.linesWith("p_u: undetermined");
   print("targets.real.refused", refused, "of 3");
   double early = 0.0, late = 0.0, number = 0.0, movers = 0.0, offset = 0.0, nees = 0.0;
-  for (int seed = 1; seed <= kRuns; ++seed) {
+  for (int seed = 1; seed <= runs; ++seed) {
     const auto plain = team.track(seed, jitter, "");
-    early += plain.early.ospa / kRuns;
-    late += plain.late.ospa / kRuns;
-    number += plain.late.number_error / kRuns;
-    nees += plain.late.nees / kRuns;
+    early += plain.early.ospa / runs;
+    late += plain.late.ospa / runs;
+    number += plain.late.number_error / runs;
+    nees += plain.late.nees / runs;
     movers += team.track(seed, jitter, "  explain_mates: false\n  bernoulli: {moving_share: 0.3}\n")
                   .late.ospa /
-              kRuns;
+              runs;
     offset += team.track(seed, "--position-sigma 0.05 --heading-sigma 1 --pose-correlation 20", "")
                   .late.ospa /
-              kRuns;
+              runs;
   }
   print("targets.real.ospa_mean_60_300", early, "m");
   print("targets.real.ospa_mean_300_end", late, "m");
