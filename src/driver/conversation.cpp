@@ -202,7 +202,7 @@ std::size_t Conversation::broken() const {
   return parser_.counts().bad_headers + parser_.counts().bad_frames;
 }
 
-// Of a device that is slower than others, two scans of its own.
+// Two of its own scans for a device that is slower than others.
 std::int64_t Conversation::silence() const {
   return std::clamp(2 * scan_pause_ + scan_pause_ / 2, kSilence, kLongestSilence);
 }

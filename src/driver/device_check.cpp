@@ -149,7 +149,7 @@ std::vector<double> DeviceCheck::medianRanges(const std::vector<TimedScan>& scan
   return ranges;
 }
 
-// Of the middle third of the beams [m]; NaN where they have no ranges.
+// Mean over the middle third of the beams [m]; NaN where they have no ranges.
 double DeviceCheck::depthAhead(const std::vector<TimedScan>& scans, bool exchanged) const {
   const auto ranges = medianRanges(scans, exchanged);
   std::vector<double> depths;

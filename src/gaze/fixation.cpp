@@ -32,7 +32,7 @@ double secondsBetween(std::int64_t from, std::int64_t to) {
   return 1e-9 * static_cast<double>(to - from);
 }
 
-// Of period 4 and amplitude 1, from 0 up.
+// A triangle wave with period 4 and amplitude 1, from 0 up.
 double triangle(double phase) {
   const double turned = std::fmod(phase, 4.0);
   return turned < 1.0 ? turned : turned < 3.0 ? 2.0 - turned : turned - 4.0;

@@ -94,7 +94,7 @@ bool Splitting::isBent(const Piece& piece) {
   return static_cast<double>(most) > price();
 }
 
-// Of the blocks before `block` and before the next three.
+// Sums over the blocks before `block` and before the next three.
 LineScores Splitting::scoresOf(std::size_t block) const {
   const LineScores* of = scores_.data() + block;
   return {sums(of[0].w, of[1].w, of[2].w, of[3].w), sums(of[0].a, of[1].a, of[2].a, of[3].a),

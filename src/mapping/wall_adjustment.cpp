@@ -21,8 +21,8 @@ using geometry::Pose2;
 constexpr struct {
   double gates[3] = {0.15, 0.1, 0.06};  // distance from the side, round by round [m]
   double square_sigma = 0.006;          // of the angle between neighbours [rad]
-  // Of a side about where it was found [m], and about the turn of its rectangle [rad]: a curved
-  // wall makes no rectangle oblique.
+  // Sigmas of a side about where it was found [m], and about the turn of its rectangle [rad]: a
+  // curved wall makes no rectangle oblique.
   double prior_sigma = 0.1;
   double turn_sigma = 0.01;
   double loss = 2.0;
@@ -126,7 +126,8 @@ class WallProblem {
            static_cast<double>(residuals - std::min(unknowns, residuals / 2));
   }
 
-  // Of where each side is among all sides, the relations between their errors taken into account.
+  // Covariance of where each side is among all sides, the relations between their errors taken into
+  // account.
   void storeCovariances(std::vector<RoomOutline>& rooms) {
     std::vector<const double*> blocks;
     for (const auto& room : values_) {
@@ -178,7 +179,7 @@ class WallProblem {
     Eigen::Vector2d mean;
   };
 
-  // Of all sides' values, in their order; nothing where it cannot be told.
+  // Covariance of all sides' values, in their order; nothing where it cannot be told.
   std::optional<Eigen::MatrixXd> jointCovariance(const std::vector<const double*>& blocks) {
     ceres::Covariance::Options options;
     options.algorithm_type = ceres::SPARSE_QR;

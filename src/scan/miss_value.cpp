@@ -32,7 +32,7 @@ double largestRange(const Scan& scan) {
   return largest;
 }
 
-// Of ranges from `least` on, rising.
+// Takes ranges from `least` on, rising.
 std::vector<Level> levelsOf(const Scan& scan, double least) {
   std::vector<double> ranges;
   for (std::size_t i = 0; i < scan.beams(); ++i) {

@@ -48,7 +48,7 @@ void print(const Section& section) {
   }
 }
 
-// Of any struct with a field list, with the values that it holds as defaults.
+// Takes any struct with a field list, with the values that it holds as defaults.
 template <class Config>
 Section sectionOf(const std::string& title, const std::string& text) {
   const Config defaults;

@@ -26,7 +26,7 @@ struct FitJob {
   std::string out;
 };
 
-// Of a pose by scans alone, from one scan to one soon after [m, rad].
+// Error of a pose by scans alone, from one scan to one soon after [m, rad].
 constexpr double kReckonedPosition = 0.005;
 constexpr double kReckonedHeading = 0.003;
 

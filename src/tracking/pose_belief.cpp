@@ -16,9 +16,9 @@ constexpr struct {
   double most_for = 4.0;
   double most_against = -14.0;
   double outside = -1.0;  // of a view from outside every room
-  // Of the first view in which far fewer beams meet walls than usual: less than this share of the
-  // usual ones, and so many fewer that somewhere else is as likely as the robot having been carried
-  // there. What is usual follows slowly, more slowly still while it is not.
+  // Log odds by the first view in which far fewer beams meet walls than usual: less than this share
+  // of the usual ones, and so many fewer that somewhere else is as likely as the robot having been
+  // carried there. What is usual follows slowly, more slowly still while it is not.
   double surprising = -5.0;
   double surprise = 0.5;
   double carried = 9.2;  // log odds

@@ -17,7 +17,7 @@ constexpr struct {
   double slip_again = -2.0;  // of wheels that were wrong a moment ago
   double no_walls = -2.0;
   double close_walls = -1.0;
-  // Of wheels that were wrong a moment ago.
+  // Log odds of wheels that were wrong a moment ago.
   double distrusted = -4.0;
   std::int64_t longest_distrust = 3'000'000'000;  // [ns]
   // Steps of wheels and of the motion going on are one within this [m, rad].

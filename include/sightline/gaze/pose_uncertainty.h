@@ -28,7 +28,7 @@ class PoseUncertainty {
   /// Takes over the covariance that the tracker says; what is in it of the walls is kept.
   void adopt(const Eigen::Matrix3d& covariance);
 
-  /// Of (x, y, θ), with all that makes its error.
+  /// Covariance of (x, y, θ), with all that makes its error.
   Eigen::Matrix3d covariance() const;
 
  private:

@@ -10,7 +10,7 @@ namespace sightline::lines {
 /// Motion of the base from one scan to the next, and how well it is known.
 struct CarrierStep {
   geometry::Pose2 T_before_now;
-  /// Of its coordinates (x, y, θ) [m², m rad, rad²], that of the scale apart.
+  /// Covariance of its coordinates (x, y, θ) [m², m rad, rad²], that of the scale apart.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// ∂ translation / ∂ error of the odometry's scale, which is the same in all steps [m].
   Eigen::Vector2d by_scale = Eigen::Vector2d::Zero();

@@ -36,7 +36,7 @@ class FacingImages {
   /// Whether anything is known of it.
   bool isKnown(int x, int y) const { return known_[at(x, y)] != 0; }
 
-  /// Of a point of the map, in cells, and back [m].
+  /// Converts a point of the map to cells, and back [m].
   Eigen::Vector2d toImage(const Eigen::Vector2d& point_map) const;
   Eigen::Vector2d toMap(const Eigen::Vector2d& cells) const;
   double turn() const { return turn_; }

@@ -15,7 +15,8 @@ struct Relation {
   std::size_t from = 0;  ///< key scan
   std::size_t to = 0;    ///< key scan
   geometry::Pose2 T_from_to;
-  /// Of the coordinates of T_from_to, by the scans alone; singular where they do not tell.
+  /// Information about the coordinates of T_from_to, by the scans alone; singular where they do not
+  /// tell.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   bool is_loop = false;  ///< whether it joins two visits of a place
 };

@@ -19,8 +19,8 @@ namespace sightline::mapping {
 struct SideLine {
   double angle = 0.0;     ///< [rad]
   double distance = 0.0;  ///< [m], negative where the anchor is inside
-  /// Of (distance at the middle of the side, angle) [m², m rad, rad²], among the other sides: a
-  /// shift and a turn of all together is no error.
+  /// Covariance of (distance at the middle of the side, angle) [m², m rad, rad²], among the other
+  /// sides: a shift and a turn of all together is no error.
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   bool is_seen = false;  ///< whether scans tell where it is
 
