@@ -11,18 +11,12 @@ namespace sightline::mapping {
 namespace {
 
 constexpr const char* kHead =
-    "# Rooms fitted to a recording. Lengths in metres, angles in radians. Rename rooms, correct "
-    "what "
-    "is wrong.\n"
-    "# A rectangle has its middle and turn in the map, and its sides south, east, north, west at "
-    "-y, "
-    "+x, +y, -x of its\n"
-    "# own frame; a polygon has its corners in the map, counter-clockwise, and side 0 begins at "
-    "the "
-    "first. Spans say\n"
-    "# where wall was seen, from the start of a side on. Behind each side: its standard "
-    "deviations, "
-    "across and in turn.\n";
+    R"(# Rooms fitted to a recording or a grid. Lengths in metres, angles in radians. Rename rooms, correct
+# what is wrong. A rectangle has its middle and turn in the map, and its sides south, east, north, west
+# at -y, +x, +y, -x of its own frame; a polygon has its corners in the map, counter-clockwise, and side
+# 0 begins at the first. Spans say where wall was seen, from the start of a side on; sigma how well its
+# line is known, across its middle and in turn, as standard deviations.
+)";
 
 std::string outline(const RoomOutline& room) {
   if (const auto r = rectangleOf(room)) {

@@ -36,7 +36,7 @@ struct WallConfig {
   double direction_sigma = 0.004;  ///< of a wall of the map [rad]
   double max_nis = 16.0;           ///< of an update, 2 degrees of freedom
 
-  /// The same, with the accuracy of a wall where the map tells it.
+  /// The same for one wall, whose own uncertainty comes on top where the map tells it.
   WallConfig of(const world::Wall& wall) const;
   void visit(config::FieldVisitor& visitor);
 };

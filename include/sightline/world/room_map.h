@@ -99,7 +99,7 @@ Span openingOf(const Door& door, const Wall& wall);
 ///     walls:                           # optional; others are there over their whole length
 ///       north: {spans: [[0.0, 2.0], [2.5, 5.0]]}   # m from the wall's start
 ///       east: {open: true}             # no wall at all
-///       south: {sigma: [0.005, 0.001]} # m, rad: how well it is known; default that of the tracker
+///       south: {sigma: [0.005, 0.001]} # m, rad: how well its line is known; default exactly
 ///   hall:
 ///     corners: [[0.0, 0.0], [4.0, 3.0]]   # m, in the map: a rectangle's corner at the start of
 ///     its turn_deg: 12.5                      # south and the one across; degrees, default 0
