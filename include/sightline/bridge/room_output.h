@@ -25,9 +25,9 @@ struct RoomOutputConfig {
 };
 
 /// The pose in the rooms of a map: `pose`, `tracker_status`, map→odom on tf, the map itself,
-/// latched, on `map`, and markers. In a running graph, with publish_tf, also the frame of the rooms file, which is
-/// that of the map with `_rooms` behind its name: with it tf, and so rviz, knows the frame of the
-/// map before there is a pose.
+/// latched, on `map`, and markers. In a running graph, with publish_tf, also the frame of the rooms
+/// file, which is that of the map with `_rooms` behind its name: with it tf, and so rviz, knows the
+/// frame of the map before there is a pose.
 class RoomOutput {
  public:
   RoomOutput(Output& output, const RoomOutputConfig& config, const pipeline::Frames& frames,

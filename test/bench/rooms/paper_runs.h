@@ -19,7 +19,8 @@ constexpr double kPlsPeriod = 1.0 / 3.0;  // [s]
 /// One of his runs.
 struct PaperRun {
   std::string name;
-  std::string world;  ///< of config/worlds; the map of that name is the one it is built on
+  std::string world;  ///< of config/worlds
+  std::string rooms;  ///< of config/rooms, that the world is built on
   geometry::Pose2 start;
   std::vector<Eigen::Vector2d> waypoints;
   double seconds = 0.0;
@@ -54,7 +55,7 @@ inline std::vector<TrackedScan> trackedBy(const PaperRun& run, const RecordedDri
                                           const tracking::TrackerConfig& config) {
   tracking::RoomTracker tracker(
       config,
-      world::RoomMap::readFile(SIGHTLINE_SOURCE_DIR "/config/rooms/" + run.world + ".yaml"));
+      world::RoomMap::readFile(SIGHTLINE_SOURCE_DIR "/config/rooms/" + run.rooms + ".yaml"));
   tracker.setPose({run.start, Eigen::Vector3d(0.09, 0.09, 0.01).asDiagonal()});
   return Playback(tracker, {}).play(drive);
 }
@@ -88,6 +89,7 @@ inline bool isLockedIn(const std::vector<TrackedScan>& scans) {
 
 inline PaperRun livingRoom() {
   return {"living_room",
+          "jensfelt_living_room",
           "living_room",
           {-0.8, 0.6, 2.8},
           {{-3.2, 1.4}, {0.8, 1.5}, {0.8, -1.2}, {3.6, -0.9}, {0.6, -0.6}, {-0.8, 0.6}},
@@ -97,6 +99,7 @@ inline PaperRun livingRoom() {
 inline PaperRun office() {
   return {"office",
           "office",
+          "office",
           {1.1, -0.9, 2.0},
           {{0.4, 0.7}, {0.4, -0.9}, {-1.1, -0.8}, {0.4, -1.0}, {1.1, -0.9}},
           250.0};
@@ -104,6 +107,7 @@ inline PaperRun office() {
 
 inline PaperRun corridor() {
   return {"corridor",
+          "corridor",
           "corridor",
           {-25.5, 0.0, 0.0},
           {{25.5, 0.0}, {-25.5, 0.0}},
@@ -113,6 +117,7 @@ inline PaperRun corridor() {
 
 inline PaperRun livingRoomToLab() {
   return {"living_room_to_lab",
+          "long_floor",
           "long_floor",
           {-19.9, 4.6, 0.2},
           {{-17.4, 4.9},
@@ -136,6 +141,7 @@ inline PaperRun livingRoomToLab() {
 /// wall: the uncertainty of the threshold opens the gates (jensfelt section 5.2).
 inline PaperRun bookshelf() {
   return {"bookshelf",
+          "long_floor",
           "long_floor",
           {-13.0, 0.0, geometry::kPi},
           {{-16.2, 0.0}, {-17.0, 1.0}, {-17.0, 2.4}, {-18.5, 4.6}, {-17.0, 4.9}, {-17.0, 2.4}},
