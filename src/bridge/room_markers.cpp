@@ -149,6 +149,12 @@ Eigen::Vector2d firstSeen(const world::RoomMap& map) {
   return box.contains(origin) ? origin : Eigen::Vector2d(box.center());
 }
 
+// A shape without points is an error to rviz: it is taken away instead.
+void removeIfEmpty(Marker& marker) {
+  const bool needs_points = marker.type == Marker::LINE_LIST || marker.type == Marker::POINTS;
+  if (needs_points && marker.points.empty()) marker.action = Marker::DELETE;
+}
+
 }  // namespace
 
 visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& update,
@@ -162,6 +168,7 @@ visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& updat
   array.markers = {
       walls(scene),           gates(scene),  acceptedPoints(scene, scan, T_base_sensor),
       positionEllipse(scene), rivals(scene), roomName(scene)};
+  for (Marker& marker : array.markers) removeIfEmpty(marker);
   return array;
 }
 
@@ -169,12 +176,14 @@ visualization_msgs::MarkerArray awaitingMarkers(const world::RoomMap& map, const
                                                 const std::string& map_frame) {
   std_msgs::Header header;  // its stamp of zero is tf's newest
   header.frame_id = map_frame;
-  Marker clear;
-  clear.action = Marker::DELETEALL;
   Marker walls = emptyMarker("walls", Marker::LINE_LIST, header, kWallWidth);
   addWalls(map, "", walls);
   visualization_msgs::MarkerArray array;
-  array.markers = {clear, walls, textAt(firstSeen(map), text, header)};
+  array.markers = {walls, textAt(firstSeen(map), text, header)};
+  for (const char* of_a_pose : {"gates", "accepted", "position 95 %", "rivals"}) {
+    array.markers.push_back(emptyMarker(of_a_pose, Marker::LINE_LIST, header, 0.0));
+    array.markers.back().action = Marker::DELETE;
+  }
   return array;
 }
 
