@@ -88,6 +88,7 @@ Fixated GazeControl::fixate(const geometry::Feature* feature, const std::string&
   setMode(GazeMode::kFixate);
   fixation_.emplace(*feature, *features_stamp_, config_);
   state_.target = feature->id;
+  is_nearest_ = false;
   return {true, feature->id, ""};
 }
 
@@ -106,7 +107,9 @@ Fixated GazeControl::fixateNearestCorner() {
   const auto T_odom_base = motion_.newest();
   if (!T_odom_base || !T_base_mount_) return {false, 0, "the place of the head is not known"};
   const FeatureChoice choice(features_, *T_odom_base * *T_base_mount_, config_);
-  return fixate(choice.nearestCorner(), "there is no corner within reach");
+  const Fixated fixated = fixate(choice.nearestCorner(), "there is no corner within reach");
+  is_nearest_ = fixated.success;
+  return fixated;
 }
 
 Fixated GazeControl::fixateMostInformative() {
@@ -196,12 +199,12 @@ void GazeControl::restartClock(std::int64_t now) {
 }
 
 // A head at fault is left alone, until somebody tries again. One that had not answered, as before
-// its driver runs, and now does goes on with what needs no feature of before.
+// its driver runs, and now does goes on with what needs no feature that was chosen before.
 bool GazeControl::watchHead(std::int64_t now) {
   const std::string fault = watch_.fault(now);
   if (fault.empty()) return true;
   const GazeMode mode = state_.mode;
-  const bool may_go_on = watch_.isSilent(now) && mode != GazeMode::kFixate;
+  const bool may_go_on = watch_.isSilent(now) && (!fixation_ || is_nearest_);
   hold();
   state_.message = fault;
   if (may_go_on) interrupted_ = mode;

@@ -248,6 +248,12 @@ TEST_F(GazeControlTest, GoesOnWhenTheHeadAnswers) {
   run(1.0);
   EXPECT_EQ(mode(), GazeMode::kSweep);
   EXPECT_EQ(message(), "");
+  ASSERT_TRUE(gaze_.fixateNearestCorner().success);
+  reports_ = false;
+  run(1.0);
+  reports_ = true;
+  run(1.0);
+  EXPECT_EQ(gaze_.state().target, 7U);
 }
 
 TEST_F(GazeControlTest, HoldsWhereTheClockWasSetBack) {

@@ -91,6 +91,7 @@ class GazeControl {
   std::vector<geometry::Feature> features_;
   std::optional<std::int64_t> features_stamp_;
   std::optional<Fixation> fixation_;
+  bool is_nearest_ = false;  // whether any nearest corner will do for it
   std::optional<std::int64_t> now_;
   double sweep_sense_ = 1.0;
   std::optional<double> commanded_;      // [rad]
