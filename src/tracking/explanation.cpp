@@ -62,18 +62,14 @@ void applyWalls(const TrackingContext& context, PoseFilter& filter,
 }
 
 void applyJambs(const TrackingContext& context, std::size_t room, const Sweep& sweep,
-                Explanation& explanation) {
+                PoseFilter& filter) {
   constexpr double kMostNis = 9.0;
   if (!context.config.doors.are_landmarks) return;
-  PoseFilter& filter = explanation.filter;
   for (const SeenJamb& seen : findJambs(context.config, filter, context.map, room, sweep)) {
     const auto innovation =
         filter.innovation(seen.line, seen.jamb.lineIn(context.map), LineBySweepError::Zero(),
                           seen.jamb.errorIn(context.config.doors));
-    const bool is_accepted = innovation.nis <= kMostNis;
-    explanation.jambs.push_back(
-        {seen.jamb.door, seen.jamb.room, innovation.value[0], innovation.nis, is_accepted});
-    if (is_accepted) filter.update(innovation);
+    if (innovation.nis <= kMostNis) filter.update(innovation);
   }
 }
 

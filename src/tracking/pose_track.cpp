@@ -83,7 +83,7 @@ void PoseTrack::predict(const TrackingContext& context, const TrackerInput& inpu
 Explanation PoseTrack::explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
                                    const TrackingContext& context, const TrackerInput& input,
                                    const Sweep& sweep) const {
-  Explanation explanation{prior, {}, {}, {}};
+  Explanation explanation{prior, {}, {}};
   const WallFinder finder(context.config);
   for (WallFit& fit :
        finder.find(looked_from, context.map, wallsInSight(context, memory_.room()), sweep)) {
@@ -91,7 +91,7 @@ Explanation PoseTrack::explainFrom(const PoseFilter& prior, const PoseFilter& lo
   }
   explanation.filter.beginSweep(sweep.motion_noise);
   applyWalls(context, explanation.filter, explanation.walls);
-  applyJambs(context, memory_.room(), sweep, explanation);
+  applyJambs(context, memory_.room(), sweep, explanation.filter);
   judge(context, input, explanation);
   return explanation;
 }
@@ -118,7 +118,7 @@ void PoseTrack::judge(const TrackingContext& context, const TrackerInput& input,
 // The walls that were found were none: the pose stays as predicted.
 Explanation PoseTrack::withoutWalls(const Explanation& taken, const TrackingContext& context,
                                     const TrackerInput& input) const {
-  Explanation none{filter_, taken.walls, {}, {}};
+  Explanation none{filter_, taken.walls, {}};
   judge(context, input, none);
   none.log_posterior =
       logLikelihood(none.agreement, *input.scan.geometry(), usual_hits_) + kPriors.unused;
@@ -229,7 +229,6 @@ TrackerUpdate PoseTrack::commit(const TrackingContext& context, const TrackerInp
   update.jumped = explanation.motion == Explanation::Motion::kSlip &&
                   supportOf(explanation.agreement, *input.scan.geometry()) < kPriors.least_support;
   update.walls = std::move(explanation.walls);
-  update.jambs = std::move(explanation.jambs);
   if (memory_.changeRoom(context.map, pose().mean.translation())) {
     inflate(context.config.threshold_position_sigma, context.config.threshold_heading_sigma);
   }

@@ -15,7 +15,6 @@ namespace sightline::tracking {
 struct Explanation {
   PoseFilter filter;
   std::vector<WallUpdate> walls;
-  std::vector<JambUpdate> jambs;
   ScanAgreement agreement;
   double log_posterior = 0.0;  ///< up to a constant: prior, beams and walls
   /// What the robot is taken to have done since the last scan.
@@ -28,7 +27,7 @@ std::vector<world::WallIndex> wallsInSight(const TrackingContext& context, std::
 void applyWalls(const TrackingContext& context, PoseFilter& filter, std::vector<WallUpdate>& walls);
 /// Corrects it by the jambs of a room's doors, after the walls have told how the robot stands.
 void applyJambs(const TrackingContext& context, std::size_t room, const Sweep& sweep,
-                Explanation& explanation);
+                PoseFilter& filter);
 
 /// Independent statements that beams on walls make.
 double supportOf(const ScanAgreement& agreement, const scan::ScanGeometry& geometry);

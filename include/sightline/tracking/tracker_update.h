@@ -37,7 +37,6 @@ struct TrackerUpdate {
   bool covariance_valid = false;
   std::string room;
   std::vector<WallUpdate> walls;
-  std::vector<JambUpdate> jambs;
   bool is_outside = false;  ///< whether the pose lies out of its room, past any doorway
   bool jumped = false;      ///< whether the pose left the prediction, with few beams to tell of it
   ScanAgreement agreement;  ///< of the scan with what is seen from the pose

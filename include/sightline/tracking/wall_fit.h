@@ -54,15 +54,6 @@ struct WallInnovation {
   double nis = 0.0;       ///< normalised innovation squared, 2 degrees of freedom
 };
 
-/// Effect of a jamb of a door on one estimate of the pose.
-struct JambUpdate {
-  std::size_t door = 0;  ///< index in the map
-  std::size_t room = 0;  ///< from which it was seen
-  double offset = 0.0;   ///< measured less predicted, along its wall [m]
-  double nis = 0.0;      ///< normalised innovation squared, 1 degree of freedom
-  bool accepted = false;
-};
-
 /// Effect of one wall on one estimate of the pose.
 struct WallUpdate : WallFit {
   std::optional<WallInnovation> innovation;  ///< where there is a fit
