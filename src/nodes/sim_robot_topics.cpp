@@ -170,8 +170,8 @@ void SimRobotTopics::publish(const simulation::ReportedHead& head) {
       {{clock_.stampOf(head.stamp), head.angle, head.rate}});
 }
 
-void SimRobotTopics::publish(const simulation::ReportedTurret& turret) {
-  scanners_[turret.scanner].turret->publish(
+void SimRobotTopics::publishTurret(const simulation::ReportedHead& turret) {
+  scanners_[turret.sensor].turret->publish(
       {{clock_.stampOf(turret.stamp), turret.angle, turret.rate}});
 }
 

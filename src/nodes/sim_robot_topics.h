@@ -33,7 +33,7 @@ class SimRobotTopics {
   void publish(const simulation::ReportedMotion& motion);
   void publish(simulation::FinishedSweep& sweep);
   void publish(const simulation::ReportedHead& head);
-  void publish(const simulation::ReportedTurret& turret);
+  void publishTurret(const simulation::ReportedHead& turret);
   void publish(simulation::FinishedRangeScan& finished);
 
  private:

@@ -102,7 +102,7 @@ void SimSensorNode::step() {
   publishEach(outputs.states);
   publishEach(outputs.motions);
   publishEach(outputs.heads);
-  publishEach(outputs.turrets);
+  for (const auto& turret : outputs.turrets) robots_[turret.robot]->publishTurret(turret);
   publishEach(outputs.sweeps);
   publishEach(outputs.range_scans);
 }

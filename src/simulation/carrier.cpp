@@ -28,14 +28,19 @@ void Carrier::addScanner(const ScannerProfile& profile, const Mounting& mounting
                          double turret_rate) {
   // Each scanner gets noise of its own.
   const std::uint64_t seed = seed_ + (static_cast<std::uint64_t>(scanners_.size() + 1) << 32);
-  scanners_.push_back({Scanner(profile, mounting, seed, turret_rate), nullptr});
+  scanners_.push_back({Scanner(profile, mounting, seed), nullptr});
+  if (turret_rate == 0.0) return;
+  scanners_.back().scanner.mountOn(
+      [turret_rate](std::int64_t time) { return turret_rate * 1e-9 * static_cast<double>(time); });
 }
 
 void Carrier::addScanner(const ScannerProfile& profile, const Mounting& mounting,
                          const motion::HeadLimits& turret) {
   addScanner(profile, mounting);
-  scanners_.back().turret = std::make_shared<Turret>(turret);
-  scanners_.back().scanner.mountOn(scanners_.back().turret);
+  const auto commanded = std::make_shared<Turret>(turret);
+  scanners_.back().turret = commanded;
+  scanners_.back().scanner.mountOn(
+      [commanded](std::int64_t time) { return commanded->angleAt(time); });
 }
 
 void Carrier::commandTurret(std::size_t scanner, const motion::HeadCommand& command) {

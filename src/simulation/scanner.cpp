@@ -22,20 +22,16 @@ double rounded(double value, double step) {
 
 }  // namespace
 
-Scanner::Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed,
-                 double turret_rate)
+Scanner::Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed)
     : profile_(checked(profile)),
       T_base_turret_(mounting.T_base_sensor()),
-      turret_rate_(turret_rate),
       geometry_(profile.geometry()),
       sweep_duration_(std::llround(profile.sweepDuration() * 1e9)),
       random_(randomStream(seed, 1)) {}
 
 Eigen::Isometry3d Scanner::T_base_sensor(std::int64_t time) const {
-  if (!turret_ && turret_rate_ == 0.0) return T_base_turret_;
-  const double angle =
-      turret_ ? turret_->angleAt(time) : turret_rate_ * 1e-9 * static_cast<double>(time);
-  return T_base_turret_ * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ());
+  if (!turret_) return T_base_turret_;
+  return T_base_turret_ * Eigen::AngleAxisd(turret_(time), Eigen::Vector3d::UnitZ());
 }
 
 scan::Scan Scanner::sweep(const world::World& world, std::int64_t stamp, const PoseAt& T_map_base) {

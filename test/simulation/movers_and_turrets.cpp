@@ -118,7 +118,8 @@ TEST(Turret, MovesEveryBeamAtItsOwnTime) {
   world.add(world::WorldSegment{{{-20.0, 2.0}, {20.0, 2.0}}, 0.0, 2.0, 0});
   Mounting mounting;
   mounting.z = 0.4;
-  Scanner scanner(profile, mounting, 1, rate);
+  Scanner scanner(profile, mounting, 1);
+  scanner.mountOn([&](std::int64_t time) { return rate * 1e-9 * static_cast<double>(time); });
   const auto scan = scanner.sweep(world, 400'000'000, [](std::int64_t) { return Pose2(); });
   for (std::size_t i = 0; i < scan.beams(); ++i) {
     if (!scan.isValid(i)) continue;

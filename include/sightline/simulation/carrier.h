@@ -16,6 +16,7 @@
 #include "sightline/simulation/robot.h"
 #include "sightline/simulation/scanner.h"
 #include "sightline/simulation/scene.h"
+#include "sightline/simulation/turret.h"
 #include "sightline/triangulation/ranger.h"
 
 namespace sightline::simulation {
@@ -28,7 +29,8 @@ class Carrier {
   /// Throws config::Error if the configuration is out of range.
   Carrier(const RobotConfig& config, const geometry::Pose2& T_map_base, std::uint64_t seed);
 
-  /// Sweeps begin at time 0; `turret_rate` [rad/s] as for Scanner. Throws config::Error.
+  /// Sweeps begin at time 0. With a `turret_rate` [rad/s], counter-clockwise, it is on a turret
+  /// that turns evenly, and stands straight ahead at time 0. Throws config::Error.
   void addScanner(const ScannerProfile& profile, const Mounting& mounting,
                   double turret_rate = 0.0);
   /// The same on a turret that is commanded, and stands straight ahead at first.

@@ -27,19 +27,10 @@ struct FinishedRangeScan {
   motion::RangeScan range_scan;
 };
 
-/// Report of the head of an active sensor, as of its last sample.
+/// Report of the head of an active sensor, as of its last sample, or of the turret of a scanner.
 struct ReportedHead {
   std::size_t robot = 0;
-  std::size_t sensor = 0;
-  std::int64_t stamp = 0;  ///< [ns]
-  double angle = 0.0;      ///< of its joint [rad]
-  double rate = 0.0;       ///< [rad/s]
-};
-
-/// Report of the turret of a scanner.
-struct ReportedTurret {
-  std::size_t robot = 0;
-  std::size_t scanner = 0;
+  std::size_t sensor = 0;  ///< the active sensor, or the scanner on the turret
   std::int64_t stamp = 0;  ///< [ns]
   double angle = 0.0;      ///< of its joint [rad]
   double rate = 0.0;       ///< [rad/s]
@@ -68,7 +59,7 @@ struct Outputs {
   std::vector<FinishedSweep> sweeps;
   std::vector<FinishedRangeScan> range_scans;
   std::vector<ReportedHead> heads;      ///< one a step and active sensor
-  std::vector<ReportedTurret> turrets;  ///< one a step and commanded turret
+  std::vector<ReportedHead> turrets;    ///< one a step and commanded turret
   std::vector<ReportedState> states;    ///< at the rate of each robot's odometry
   std::vector<ReportedMotion> motions;  ///< one a step and robot
 };

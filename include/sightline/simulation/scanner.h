@@ -15,7 +15,6 @@
 #include "sightline/simulation/random_stream.h"
 #include "sightline/simulation/scanner_profile.h"
 #include "sightline/simulation/scene.h"
-#include "sightline/simulation/turret.h"
 #include "sightline/world/world.h"
 
 namespace sightline::simulation {
@@ -29,12 +28,13 @@ class Scanner {
   /// Pose of a carrier which leans and bobs; its origin at the floor while it stands upright.
   using PoseInSpaceAt = std::function<Eigen::Isometry3d(std::int64_t)>;
 
-  /// `turret_rate` [rad/s], counter-clockwise about the z axis of the mounting, which is where the
-  /// turret is at time 0; 0: fixed. Throws config::Error if the profile does not fit together.
-  Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed,
-          double turret_rate = 0.0);
-  /// Puts the scanner on a turret that turns as it is told, about the z axis of the mounting.
-  void mountOn(std::shared_ptr<const Turret> turret) { turret_ = std::move(turret); }
+  /// How far a turret has turned from the mounting at a time [ns]: [rad], counter-clockwise about
+  /// the mounting's z axis.
+  using TurretAngle = std::function<double(std::int64_t)>;
+
+  /// Fixed, until it is put on a turret. Throws config::Error if the profile does not fit together.
+  Scanner(const ScannerProfile& profile, const Mounting& mounting, std::uint64_t seed);
+  void mountOn(TurretAngle turret) { turret_ = std::move(turret); }
 
   const ScannerProfile& profile() const { return profile_; }
   std::int64_t sweepDuration() const { return sweep_duration_; }  ///< [ns]
@@ -66,8 +66,7 @@ class Scanner {
 
   ScannerProfile profile_;
   Eigen::Isometry3d T_base_turret_;
-  double turret_rate_;
-  std::shared_ptr<const Turret> turret_;  // none: turns evenly, or not
+  TurretAngle turret_;  // none: fixed
   std::shared_ptr<const scan::ScanGeometry> geometry_;
   std::int64_t sweep_duration_;
   RandomStream random_;
