@@ -9,6 +9,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
 #include "sightline/logs/carmen_odometry.h"
@@ -40,8 +41,7 @@ sensor_msgs::LaserScan scanOf(const logs::CarmenLaser& laser, std::int64_t stamp
                               double front_laser_max) {
   const double range_max = laser.range_max.value_or(front_laser_max);
   sensor_msgs::LaserScan scan;
-  scan.header.stamp = timeOf(stamp);
-  scan.header.frame_id = kLaserFrame;
+  scan.header = headerOf(stamp, kLaserFrame);
   scan.angle_min = static_cast<float>(laser.angle_min);
   scan.angle_increment = static_cast<float>(laser.angle_increment);
   const auto last = static_cast<double>(laser.ranges.size() - 1);

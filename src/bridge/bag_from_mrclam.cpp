@@ -10,6 +10,7 @@
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/target_messages.h"
 #include "sightline/bridge/time.h"
@@ -131,8 +132,7 @@ class MrclamBag {
 
   void writePose(const BagItem& item) {
     geometry_msgs::PoseWithCovarianceStamped message;
-    message.header.stamp = timeOf(item.stamp);
-    message.header.frame_id = "map";
+    message.header = headerOf(item.stamp, "map");
     message.pose.pose = toPose(errors_[item.robot].disturb(robots_[item.robot].truth[item.index]));
     const double position = options_.position_sigma * options_.position_sigma;
     const double heading = options_.heading_sigma * options_.heading_sigma;
@@ -162,8 +162,7 @@ class MrclamBag {
   void writeOdometry(const BagItem& item) {
     const logs::MrclamVelocity& velocity = robots_[item.robot].velocities[item.index];
     nav_msgs::Odometry message;
-    message.header.stamp = timeOf(item.stamp);
-    message.header.frame_id = contents_.robots[item.robot] + "/odom";
+    message.header = headerOf(item.stamp, contents_.robots[item.robot] + "/odom");
     message.child_frame_id = contents_.robots[item.robot] + "/base_link";
     message.pose.pose.orientation.w = 1.0;
     message.pose.covariance[0] = -1.0;  // the log has velocities alone

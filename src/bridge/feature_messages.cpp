@@ -7,7 +7,7 @@
 
 #include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/marker_drawing.h"
-#include "sightline/bridge/time.h"
+#include "sightline/bridge/message_header.h"
 #include "sightline/geometry/angle.h"
 #include "sightline/geometry/ellipse.h"
 
@@ -121,8 +121,7 @@ Marker idLabel(const geometry::Feature& feature, const std_msgs::Header& header)
 FeatureArray toMessage(const std::vector<geometry::Feature>& features, const std::string& frame,
                        std::int64_t stamp) {
   FeatureArray message;
-  message.header.stamp = timeOf(stamp);
-  message.header.frame_id = frame;
+  message.header = headerOf(stamp, frame);
   message.features.reserve(features.size());
   for (const auto& feature : features) message.features.push_back(toMessage(feature));
   return message;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sightline/bridge/bad_message.h"
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/time.h"
 
 namespace sightline::bridge {
@@ -65,8 +66,7 @@ sensor_msgs::Imu toImuMessage(std::int64_t stamp, const std::string& frame,
   const Eigen::Quaterniond orientation(R_level_imu);
   const Eigen::Vector3d rate = R_level_imu.transpose() * Eigen::Vector3d(0.0, 0.0, turn_rate);
   sensor_msgs::Imu message;
-  message.header.stamp = timeOf(stamp);
-  message.header.frame_id = frame;
+  message.header = headerOf(stamp, frame);
   message.orientation.x = orientation.x();
   message.orientation.y = orientation.y();
   message.orientation.z = orientation.z();

@@ -1,6 +1,6 @@
 #include "sightline/bridge/line_messages.h"
 
-#include "sightline/bridge/time.h"
+#include "sightline/bridge/message_header.h"
 
 namespace sightline::bridge {
 
@@ -99,8 +99,7 @@ geometry::Arc fromMessage(const Arc& message) {
 LineSegmentArray toMessage(const std::vector<geometry::LineSegment>& segments,
                            const std::vector<geometry::Arc>& arcs, const scan::Scan& scan) {
   LineSegmentArray message;
-  message.header.stamp = timeOf(scan.stamp);
-  message.header.frame_id = scan.frame;
+  message.header = headerOf(scan.stamp, scan.frame);
   message.segments.reserve(segments.size());
   for (const auto& segment : segments) message.segments.push_back(toMessage(segment));
   message.arcs.reserve(arcs.size());

@@ -1,7 +1,7 @@
 #include "sightline/bridge/odometry_conversion.h"
 
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
-#include "sightline/bridge/time.h"
 
 namespace sightline::bridge {
 
@@ -9,8 +9,7 @@ nav_msgs::Odometry toOdometryMessage(const OdometryHeader& header,
                                      const geometry::UncertainPose2& pose,
                                      const geometry::UncertainTwist2& twist) {
   nav_msgs::Odometry message;
-  message.header.stamp = timeOf(header.stamp);
-  message.header.frame_id = header.frame;
+  message.header = headerOf(header.stamp, header.frame);
   message.child_frame_id = header.child_frame;
   message.pose.pose = toPose(pose.mean);
   message.pose.covariance = toCovariance6(pose.covariance);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "sightline/bridge/time.h"
+#include "sightline/bridge/message_header.h"
 #include "sightline/config/field_visitor.h"
 
 namespace sightline::bridge {
@@ -22,8 +22,7 @@ geometry_msgs::TransformStamped transformMessage(const std::string& parent,
                                                  const std::string& child, std::int64_t stamp,
                                                  const geometry_msgs::Transform& transform) {
   geometry_msgs::TransformStamped message;
-  message.header.stamp = timeOf(stamp);
-  message.header.frame_id = parent;
+  message.header = headerOf(stamp, parent);
   message.child_frame_id = child;
   message.transform = transform;
   return message;

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "sightline/bridge/marker_drawing.h"
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
-#include "sightline/bridge/time.h"
 #include "sightline/geometry/ellipse.h"
 
 namespace sightline::bridge {
@@ -162,8 +162,7 @@ visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& updat
                                             const geometry::Pose2& T_base_sensor,
                                             const std::string& map_frame) {
   Scene scene{update, map, {}};
-  scene.header.stamp = timeOf(update.stamp);
-  scene.header.frame_id = map_frame;
+  scene.header = headerOf(update.stamp, map_frame);
   visualization_msgs::MarkerArray array;
   array.markers = {
       walls(scene),           gates(scene),  acceptedPoints(scene, scan, T_base_sensor),

@@ -1,15 +1,14 @@
 #include "sightline/bridge/room_messages.h"
 
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
-#include "sightline/bridge/time.h"
 
 namespace sightline::bridge {
 
 geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const tracking::TrackerUpdate& update,
                                                        const std::string& map_frame) {
   geometry_msgs::PoseWithCovarianceStamped message;
-  message.header.stamp = timeOf(update.stamp);
-  message.header.frame_id = map_frame;
+  message.header = headerOf(update.stamp, map_frame);
   message.pose.pose = toPose(update.pose.mean);
   message.pose.covariance = toCovariance6(update.pose.covariance);
   return message;
@@ -47,8 +46,7 @@ RivalPose toRivalMessage(const tracking::RivalPose& rival, const world::RoomMap&
 TrackerStatus toStatusMessage(const tracking::TrackerUpdate& update, const world::RoomMap& map,
                               const std::string& map_frame) {
   TrackerStatus message;
-  message.header.stamp = timeOf(update.stamp);
-  message.header.frame_id = map_frame;
+  message.header = headerOf(update.stamp, map_frame);
   message.state = static_cast<std::uint8_t>(update.state);
   message.quality = update.quality;
   message.room = update.room;

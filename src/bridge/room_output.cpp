@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/room_markers.h"
 #include "sightline/bridge/room_messages.h"
-#include "sightline/bridge/time.h"
 #include "sightline/config/error.h"
 #include "sightline/world/occupancy.h"
 
@@ -132,8 +132,7 @@ std::string RoomOutput::writeNone(const pipeline::Estimates& estimates, bool has
   ++without_pose_[reason];
   if (has_pose) return reason;
   status_ = TrackerStatus();
-  status_.header.stamp = timeOf(estimates.located.scan.stamp);
-  status_.header.frame_id = frames_.map;
+  status_.header = headerOf(estimates.located.scan.stamp, frames_.map);
   status_port_.write(status_);
   return reason;
 }

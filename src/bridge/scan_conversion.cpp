@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
 #include "sightline/geometry/angle.h"
@@ -141,8 +142,7 @@ sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& messag
 sensor_msgs::LaserScan toMessage(const scan::Scan& scan) {
   const scan::ScanGeometry& geometry = *scan.geometry();
   sensor_msgs::LaserScan message;
-  message.header.stamp = timeOf(scan.stamp);
-  message.header.frame_id = scan.frame;
+  message.header = headerOf(scan.stamp, scan.frame);
   message.angle_min = static_cast<float>(geometry.angles().front());
   message.angle_max = static_cast<float>(geometry.angles().back());
   message.angle_increment = static_cast<float>(geometry.angleIncrement());

@@ -1,26 +1,15 @@
 #include "sightline/bridge/search_messages.h"
 
 #include "sightline/bridge/marker_drawing.h"
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
-#include "sightline/bridge/time.h"
 
 namespace sightline::bridge {
-
-namespace {
-
-std_msgs::Header searchHeader(std::int64_t stamp, const std::string& frame) {
-  std_msgs::Header header;
-  header.stamp = timeOf(stamp);
-  header.frame_id = frame;
-  return header;
-}
-
-}  // namespace
 
 nav_msgs::Path toMessage(const targets::SearchAction& action, std::int64_t stamp,
                          const std::string& frame) {
   nav_msgs::Path path;
-  path.header = searchHeader(stamp, frame);
+  path.header = headerOf(stamp, frame);
   for (const geometry::Pose2& pose : action.poses) {
     geometry_msgs::PoseStamped stamped;
     stamped.header = path.header;
@@ -34,7 +23,7 @@ visualization_msgs::MarkerArray toMarkers(const std::vector<targets::SearchActio
                                           std::int64_t stamp, const std::string& frame) {
   constexpr double kCircle = 0.25;
   constexpr double kLine = 0.05;
-  const std_msgs::Header header = searchHeader(stamp, frame);
+  const std_msgs::Header header = headerOf(stamp, frame);
   auto looks = emptyMarker("looks", visualization_msgs::Marker::SPHERE_LIST, header, kCircle);
   auto ways = emptyMarker("ways", visualization_msgs::Marker::LINE_LIST, header, kLine);
   looks.scale.z = kCircle;

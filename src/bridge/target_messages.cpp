@@ -5,6 +5,7 @@
 
 #include "sightline/bridge/bad_message.h"
 #include "sightline/bridge/marker_drawing.h"
+#include "sightline/bridge/message_header.h"
 #include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/time.h"
 #include "sightline/geometry/ellipse.h"
@@ -29,8 +30,7 @@ targets::BearingSet toBearingSet(const BearingArray& message) {
 
 BearingArray toMessage(const targets::BearingSet& set, const std::string& frame) {
   BearingArray message;
-  message.header.stamp = timeOf(set.stamp);
-  message.header.frame_id = frame;
+  message.header = headerOf(set.stamp, frame);
   message.bearings = set.bearings;
   message.standard_deviation = set.sigma;
   message.field_of_view_min = set.field_of_view.min;
@@ -52,13 +52,6 @@ geometry::UncertainPose2 toUncertainPose2(const geometry_msgs::PoseWithCovarianc
 }
 
 namespace {
-
-std_msgs::Header targetsHeader(std::int64_t stamp, const std::string& frame) {
-  std_msgs::Header header;
-  header.stamp = timeOf(stamp);
-  header.frame_id = frame;
-  return header;
-}
 
 sightline::Target targetMessage(const targets::Target& target) {
   sightline::Target message;
@@ -111,7 +104,7 @@ visualization_msgs::Marker labelMarker(const targets::Target& target,
 
 TargetArray toMessage(const targets::TargetEstimate& estimate, const std::string& frame) {
   TargetArray message;
-  message.header = targetsHeader(estimate.stamp, frame);
+  message.header = headerOf(estimate.stamp, frame);
   message.expected_number = estimate.expected_number;
   message.number_variance = estimate.number_variance;
   message.expected_undetected = estimate.expected_undetected;
@@ -123,7 +116,7 @@ TargetArray toMessage(const targets::TargetEstimate& estimate, const std::string
 
 visualization_msgs::MarkerArray toMarkers(const targets::TargetEstimate& estimate,
                                           const std::string& frame) {
-  const std_msgs::Header header = targetsHeader(estimate.stamp, frame);
+  const std_msgs::Header header = headerOf(estimate.stamp, frame);
   visualization_msgs::MarkerArray markers;
   visualization_msgs::Marker clear;
   clear.header = header;
@@ -139,8 +132,8 @@ visualization_msgs::MarkerArray toMarkers(const targets::TargetEstimate& estimat
 visualization_msgs::MarkerArray toMarkers(const logs::Points& truth, std::int64_t stamp,
                                           const std::string& frame) {
   constexpr double kSize = 0.12;
-  auto marker = emptyMarker("truth", visualization_msgs::Marker::SPHERE_LIST,
-                            targetsHeader(stamp, frame), kSize);
+  auto marker =
+      emptyMarker("truth", visualization_msgs::Marker::SPHERE_LIST, headerOf(stamp, frame), kSize);
   marker.scale.z = kSize;
   marker.color = colour(1.0F, 1.0F, 1.0F);
   for (const Eigen::Vector2d& place : truth) marker.points.push_back(toPoint(place, 0.1));
@@ -152,7 +145,7 @@ visualization_msgs::MarkerArray toMarkers(const logs::Points& truth, std::int64_
 nav_msgs::OccupancyGrid toMessage(const targets::IntensityGrid& grid, std::int64_t stamp,
                                   const std::string& frame) {
   nav_msgs::OccupancyGrid message;
-  message.header = targetsHeader(stamp, frame);
+  message.header = headerOf(stamp, frame);
   message.info.resolution = static_cast<float>(grid.resolution);
   message.info.width = static_cast<std::uint32_t>(grid.width);
   message.info.height = static_cast<std::uint32_t>(grid.height);
