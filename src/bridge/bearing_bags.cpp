@@ -31,23 +31,22 @@ std::set<std::string> topicsOf(const std::deque<rosbag::Bag>& bags) {
 
 }  // namespace
 
-BearingBags::BearingBags(const std::vector<std::string>& paths,
-                         const pipeline::TargetsConfig& config)
-    : config_(config) {
-  if (config.robots.empty()) throw config::Error("", 0, "targets.robots", "none are named");
+BearingBags::BearingBags(const std::vector<std::string>& paths, const pipeline::BearingTopics& team)
+    : team_(team) {
+  if (team.robots.empty()) throw config::Error("", 0, "targets.robots", "none are named");
   for (const std::string& path : paths) {
     bags_.emplace_back();
     openToRead(bags_.back(), path);
   }
   const std::set<std::string> known = topicsOf(bags_);
-  for (const std::string& robot : config.robots) {
-    const std::string topic = withoutSlash(config.topicOf(robot, config.bearings_topic));
+  for (const std::string& robot : team.robots) {
+    const std::string topic = withoutSlash(team.topicOf(robot, team.bearings_topic));
     if (known.count(topic) == 0) {
       throw config::Error(paths.front(), 0, "", fmt::format("no bearings on /{}", topic));
     }
     bearings_[topic] = robot;
-    if (config.pose_topic.empty()) continue;
-    poses_[withoutSlash(config.topicOf(robot, config.pose_topic))] = robot;
+    if (team.pose_topic.empty()) continue;
+    poses_[withoutSlash(team.topicOf(robot, team.pose_topic))] = robot;
   }
 }
 
@@ -95,7 +94,7 @@ void BearingBags::read(pipeline::BearingFeed& feed, const After& after) {
     take(message, feed);
     after(message.getTime(), (message.getTime() - begin).toSec() / duration_);
   }
-  after(view.getEndTime() + ros::Duration(config_.patience + 1.0), 1.0);
+  after(view.getEndTime() + ros::Duration(team_.patience + 1.0), 1.0);
 }
 
 }  // namespace sightline::bridge

@@ -37,10 +37,10 @@ class LastLooks {
 }  // namespace
 
 RecordedLooks readKnownLooks(const std::vector<std::string>& paths,
-                             const pipeline::TargetsConfig& config,
+                             const pipeline::BearingTopics& team,
                              const std::function<void(double)>& progress) {
-  BearingBags bags(paths, config);
-  pipeline::BearingFeed feed(config, bags.transforms());
+  BearingBags bags(paths, team);
+  pipeline::BearingFeed feed(team, bags.transforms());
   RecordedLooks result;
   result.field_of_view = {geometry::kPi, -geometry::kPi};
   LastLooks last;
@@ -50,8 +50,8 @@ RecordedLooks readKnownLooks(const std::vector<std::string>& paths,
         ++result.without_pose;
         continue;
       }
-      const auto robot = std::find(config.robots.begin(), config.robots.end(), look.robot);
-      result.looks.push_back(last.know(static_cast<std::size_t>(robot - config.robots.begin()),
+      const auto robot = std::find(team.robots.begin(), team.robots.end(), look.robot);
+      result.looks.push_back(last.know(static_cast<std::size_t>(robot - team.robots.begin()),
                                        look.set, look.turn_rate));
       result.field_of_view.min = std::min(result.field_of_view.min, look.set.field_of_view.min);
       result.field_of_view.max = std::max(result.field_of_view.max, look.set.field_of_view.max);

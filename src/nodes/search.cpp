@@ -1,41 +1,26 @@
 #include <map>
 #include <memory>
-#include <optional>
+#include <string>
 #include <vector>
 
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <ros/ros.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2_ros/buffer.h>
 
 #include <sightline/TargetArray.h>
 #include "nodes/search_config.h"
-#include "sightline/bridge/bad_message.h"
-#include "sightline/bridge/input_monitor.h"
 #include "sightline/bridge/node_diagnostics.h"
-#include "sightline/bridge/parameters.h"
-#include "sightline/bridge/pose_conversion.h"
 #include "sightline/bridge/search_messages.h"
-#include "sightline/bridge/searching_team.h"
-#include "sightline/bridge/target_messages.h"
+#include "sightline/bridge/team_input.h"
 #include "sightline/bridge/tf_transforms.h"
 #include "sightline/bridge/time.h"
-#include "sightline/pipeline/bearing_feed.h"
+#include "sightline/pipeline/searching_team.h"
 
 namespace sightline::nodes {
 
 namespace {
 
-SearchNodeConfig readSearchConfig(const ros::NodeHandle& private_node) {
-  auto config = bridge::readParameters<SearchNodeConfig>(private_node);
-  if (config.robots.empty()) {
-    throw config::Error(private_node.getNamespace(), 0, "robots", "none are named");
-  }
-  config.map_frame = bridge::withoutSlash(config.map_frame);
-  return config;
-}
-
-bridge::SearchingTeam makeTeam(const SearchNodeConfig& config) {
+pipeline::SearchingTeam makeTeam(const SearchNodeConfig& config) {
   const auto models = config.models.empty() ? targets::SensorModelsConfig{}
                                             : targets::SensorModelsConfig::readFile(config.models);
   std::shared_ptr<const targets::LineOfSight> sight;
@@ -50,63 +35,30 @@ bridge::SearchingTeam makeTeam(const SearchNodeConfig& config) {
 class SearchNode {
  public:
   SearchNode(ros::NodeHandle node, ros::NodeHandle private_node)
-      : config_(readSearchConfig(private_node)),
+      : config_(bridge::readTeamParameters<SearchNodeConfig>(private_node)),
         diagnostics_(node, private_node),
-        feed_(config_.feed(), transforms_),
+        feed_(config_, transforms_),
         team_(makeTeam(config_)),
         markers_(node.advertise<visualization_msgs::MarkerArray>("search_markers", 5)),
-        targets_(node.subscribe("targets", 10, &SearchNode::takeTargets, this)) {
-    if (config_.pose_topic.empty()) listener_.emplace(buffer_, node);
-    for (const std::string& robot : config_.robots) connect(node, robot);
+        targets_(node.subscribe("targets", 10, &SearchNode::takeTargets, this)),
+        input_(node, config_, diagnostics_.updater(), buffer_, feed_, [] {}) {
+    for (const std::string& robot : config_.robots) advertise(node, robot);
     diagnostics_.updater().add("search", this, &SearchNode::report);
     timer_ = node.createSteadyTimer(ros::WallDuration(1.0 / config_.rate),
                                     [this](const ros::SteadyTimerEvent&) { run(); });
   }
 
  private:
-  using PoseMessage = geometry_msgs::PoseWithCovarianceStamped;
-
   struct Robot {
-    std::unique_ptr<bridge::InputMonitor> monitor;
-    ros::Subscriber bearings;
-    ros::Subscriber poses;
     ros::Publisher action;
-    ros::Publisher command;
+    ros::Publisher command;  // where it is driven
   };
 
-  void connect(ros::NodeHandle& node, const std::string& name) {
-    constexpr std::uint32_t kQueue = 100;
-    const auto topics = config_.feed();
-    const std::string topic = topics.topicOf(name, config_.bearings_topic);
+  void advertise(ros::NodeHandle& node, const std::string& name) {
     Robot& robot = robots_[name];
-    robot.monitor = std::make_unique<bridge::InputMonitor>(topic, diagnostics_.updater());
-    robot.action = node.advertise<nav_msgs::Path>(topics.topicOf(name, "action"), 5, true);
-    if (config_.drive) {
-      robot.command = node.advertise<geometry_msgs::Twist>(topics.topicOf(name, "cmd_vel"), 5);
-    }
-    robot.bearings = node.subscribe<BearingArray>(
-        topic, kQueue,
-        [this, name](const BearingArray::ConstPtr& message) { take(name, *message); });
-    if (config_.pose_topic.empty()) return;
-    robot.poses = node.subscribe<PoseMessage>(
-        topics.topicOf(name, config_.pose_topic), kQueue,
-        [this, name](const PoseMessage::ConstPtr& message) { takePose(name, *message); });
-  }
-
-  void take(const std::string& robot, const BearingArray& message) {
-    robots_.at(robot).monitor->use([&] {
-      feed_.add({robot, bridge::withoutSlash(message.header.frame_id),
-                 bridge::toBearingSet(message), bridge::nanoseconds(ros::Time::now())});
-    });
-  }
-
-  void takePose(const std::string& robot, const PoseMessage& message) {
-    try {
-      feed_.addPose(robot, bridge::nanoseconds(message.header.stamp),
-                    bridge::toUncertainPose2(message));
-    } catch (const bridge::BadMessage& fault) {
-      robots_.at(robot).monitor->drop(std::string("pose: ") + fault.what());
-    }
+    robot.action = node.advertise<nav_msgs::Path>(config_.topicOf(name, "action"), 5, true);
+    if (!config_.drive) return;
+    robot.command = node.advertise<geometry_msgs::Twist>(config_.topicOf(name, "cmd_vel"), 5);
   }
 
   void takeTargets(const TargetArray& message) {
@@ -131,7 +83,7 @@ class SearchNode {
       if (look.fault.empty()) {
         team_.look(look.robot, look.set);
       } else {
-        robots_.at(look.robot).monitor->drop(look.fault);
+        input_.drop(look.robot, look.fault);
       }
     }
     publish(team_.plan(now), now);
@@ -166,14 +118,14 @@ class SearchNode {
 
   SearchNodeConfig config_;
   tf2_ros::Buffer buffer_;
-  std::optional<tf2_ros::TransformListener> listener_;
   bridge::TfTransforms transforms_{buffer_};
   bridge::NodeDiagnostics diagnostics_;
   pipeline::BearingFeed feed_;
-  bridge::SearchingTeam team_;
+  pipeline::SearchingTeam team_;
   std::map<std::string, Robot> robots_;
   ros::Publisher markers_;
   ros::Subscriber targets_;
+  bridge::TeamInput input_;
   ros::SteadyTimer timer_;
   std::int64_t now_ = 0;
 };

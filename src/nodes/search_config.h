@@ -2,18 +2,13 @@
 
 #include <string>
 
-#include "sightline/pipeline/targets_config.h"
+#include "sightline/pipeline/bearing_topics.h"
 #include "sightline/targets/search.h"
 
 namespace sightline::nodes {
 
 /// Parameters of the node search; those of robots, topics and models are as of target_tracker.
-struct SearchNodeConfig {
-  std::vector<std::string> robots;
-  std::string bearings_topic = "bearings";
-  std::string pose_topic = "pose";
-  std::string map_frame = "map";
-  double patience = 0.5;       ///< [s]
+struct SearchNodeConfig : pipeline::BearingTopics {
   std::string models;          ///< path
   std::string world;           ///< path
   double sensor_height = 0.3;  ///< [m]
@@ -23,15 +18,7 @@ struct SearchNodeConfig {
   targets::SearchConfig search;
 
   void visit(config::FieldVisitor& visitor) {
-    visitor.texts("robots", robots, "namespaces of the robots; must be set");
-    visitor.text("bearings_topic", bearings_topic,
-                 "topic of sightline/BearingArray in the namespace of each robot");
-    visitor.text("pose_topic", pose_topic,
-                 "topic of geometry_msgs/PoseWithCovarianceStamped, the sensor's pose in the map; "
-                 "empty: transforms from map_frame to the frame of the bearings tell");
-    visitor.text("map_frame", map_frame, "frame of the ways");
-    visitor.number("patience", patience,
-                   {"s", {0.0, 60.0}, "time that a look waits for the pose of its sensor"});
+    BearingTopics::visit(visitor);
     visitor.path("models", models, "file of sensor models; empty: the paper's values");
     visitor.path("world", world, "world file whose walls are in the way; empty: none");
     visitor.number("sensor_height", sensor_height,
@@ -41,17 +28,6 @@ struct SearchNodeConfig {
     visitor.number("max_gone", max_gone,
                    {"s", {0.1, 1e4}, "a robot without a look for so long has left the team"});
     search.visit(visitor);
-  }
-
-  /// Settings of the feed of looks.
-  pipeline::TargetsConfig feed() const {
-    pipeline::TargetsConfig config;
-    config.robots = robots;
-    config.bearings_topic = bearings_topic;
-    config.pose_topic = pose_topic;
-    config.map_frame = map_frame;
-    config.patience = patience;
-    return config;
   }
 };
 

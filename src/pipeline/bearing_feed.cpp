@@ -14,27 +14,8 @@ constexpr std::int64_t kWidestGap = 1'000'000'000;  // between two poses [ns]
 
 }  // namespace
 
-void TargetsConfig::visit(config::FieldVisitor& visitor) {
-  visitor.texts("robots", robots, "namespaces of the robots; must be set");
-  visitor.text("bearings_topic", bearings_topic,
-               "topic of sightline/BearingArray in the namespace of each robot");
-  visitor.text("pose_topic", pose_topic,
-               "topic of geometry_msgs/PoseWithCovarianceStamped, the sensor's pose in the map; "
-               "empty: transforms from map_frame to the frame of the bearings tell");
-  visitor.text("map_frame", map_frame, "frame of the targets");
-  visitor.number("patience", patience,
-                 {"s", {0.0, 60.0}, "time that a look waits for the pose of its sensor"});
-  visitor.number("period", period,
-                 {"s", {0.0, 1e6}, "time between two outputs; 0: one a look that counts"});
-  tracker.visit(visitor);
-}
-
-std::string TargetsConfig::topicOf(const std::string& robot, const std::string& name) const {
-  return robot.empty() ? name : robot + "/" + name;
-}
-
-BearingFeed::BearingFeed(const TargetsConfig& config, const Transforms& transforms)
-    : config_(config), transforms_(transforms) {}
+BearingFeed::BearingFeed(const BearingTopics& topics, const Transforms& transforms)
+    : topics_(topics), transforms_(transforms) {}
 
 void BearingFeed::addPose(const std::string& robot, std::int64_t stamp,
                           const geometry::UncertainPose2& pose) {
@@ -62,8 +43,8 @@ void BearingFeed::clear() {
 
 std::optional<geometry::UncertainPose2> BearingFeed::poseOf(const ArrivedLook& look,
                                                             std::int64_t stamp) const {
-  if (config_.pose_topic.empty()) {
-    const auto T_map_sensor = transforms_.at(config_.map_frame, look.frame, stamp);
+  if (topics_.pose_topic.empty()) {
+    const auto T_map_sensor = transforms_.at(topics_.map_frame, look.frame, stamp);
     if (!T_map_sensor) return std::nullopt;
     return geometry::UncertainPose2{geometry::inPlane(*T_map_sensor), Eigen::Matrix3d::Zero()};
   }
@@ -83,7 +64,7 @@ double BearingFeed::turnRateOf(const ArrivedLook& look, const geometry::Pose2& p
 }
 
 std::vector<BearingFeed::Ready> BearingFeed::ready(std::int64_t now) {
-  const std::int64_t patience = std::llround(1e9 * config_.patience);
+  const std::int64_t patience = std::llround(1e9 * topics_.patience);
   std::vector<Ready> result;
   std::deque<ArrivedLook> waiting;
   for (ArrivedLook& look : looks_) {

@@ -75,9 +75,9 @@ TEST(BearingFeed, DoesNotInterpolateAcrossALongGap) {
 
 TEST(BearingFeed, HandsLooksOutInTheOrderOfTheirStamps) {
   const OneTransform transforms;
-  TargetsConfig config;
-  config.pose_topic = "";
-  BearingFeed feed(config, transforms);
+  BearingTopics topics;
+  topics.pose_topic = "";
+  BearingFeed feed(topics, transforms);
   feed.add(arrivedLook("red", kFirstLook + 20, kFirstLook));
   feed.add(arrivedLook("blue", kFirstLook + 10, kFirstLook));
   const auto ready = feed.ready(kFirstLook);
@@ -88,9 +88,9 @@ TEST(BearingFeed, HandsLooksOutInTheOrderOfTheirStamps) {
 
 TEST(BearingFeed, NoticesTwoSensorsUnderOneName) {
   const OneTransform transforms;
-  TargetsConfig config;
-  config.pose_topic = "";
-  BearingFeed feed(config, transforms);
+  BearingTopics topics;
+  topics.pose_topic = "";
+  BearingFeed feed(topics, transforms);
   feed.add(arrivedLook("red", kFirstLook, kFirstLook));
   feed.add(arrivedLook("red", kFirstLook + 1, kFirstLook, "other"));
   const auto ready = feed.ready(kFirstLook);

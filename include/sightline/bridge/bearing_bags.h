@@ -21,7 +21,7 @@ namespace sightline::bridge {
 class BearingBags {
  public:
   /// Throws config::Error where a file is no bag, or a robot has no bearings in them.
-  BearingBags(const std::vector<std::string>& paths, const pipeline::TargetsConfig& config);
+  BearingBags(const std::vector<std::string>& paths, const pipeline::BearingTopics& team);
 
   /// What feeds ask that take poses from transforms.
   const pipeline::Transforms& transforms() const { return transforms_; }
@@ -38,7 +38,7 @@ class BearingBags {
   void take(const rosbag::MessageInstance& message, pipeline::BearingFeed& feed);
   void takeTransforms(const rosbag::MessageInstance& message, bool is_static);
 
-  pipeline::TargetsConfig config_;
+  pipeline::BearingTopics team_;
   std::deque<rosbag::Bag> bags_;
   std::map<std::string, std::string> bearings_;  // robot by topic
   std::map<std::string, std::string> poses_;

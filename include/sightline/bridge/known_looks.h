@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sightline/pipeline/targets_config.h"
+#include "sightline/pipeline/bearing_topics.h"
 #include "sightline/targets/characterization.h"
 
 namespace sightline::bridge {
@@ -19,7 +19,7 @@ struct RecordedLooks {
 
 /// `progress` is called with the ratio that has been read. Throws config::Error.
 RecordedLooks readKnownLooks(const std::vector<std::string>& paths,
-                             const pipeline::TargetsConfig& config,
+                             const pipeline::BearingTopics& team,
                              const std::function<void(double)>& progress);
 
 /// Pictures after figures 5b, 6, 7b and 8 of dames in a folder. Throws plot::Error.

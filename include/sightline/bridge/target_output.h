@@ -7,6 +7,7 @@
 #include "sightline/bridge/output.h"
 #include "sightline/bridge/target_messages.h"
 #include "sightline/pipeline/bearing_feed.h"
+#include "sightline/pipeline/targets_config.h"
 #include "sightline/targets/target_tracker.h"
 
 namespace sightline::bridge {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sightline/geometry/stamped_pose2.h"
-#include "sightline/pipeline/targets_config.h"
+#include "sightline/pipeline/bearing_topics.h"
 #include "sightline/pipeline/transforms.h"
 #include "sightline/targets/bearing_set.h"
 
@@ -27,7 +27,7 @@ struct ArrivedLook {
 class BearingFeed {
  public:
   /// `transforms` are asked where the settings name no topic of poses; they have to live as long.
-  BearingFeed(const TargetsConfig& config, const Transforms& transforms);
+  BearingFeed(const BearingTopics& topics, const Transforms& transforms);
 
   /// Pose of a robot's sensor in the map at a time [ns].
   void addPose(const std::string& robot, std::int64_t stamp, const geometry::UncertainPose2& pose);
@@ -54,7 +54,7 @@ class BearingFeed {
   std::optional<geometry::UncertainPose2> poseOf(const ArrivedLook& look, std::int64_t stamp) const;
   double turnRateOf(const ArrivedLook& look, const geometry::Pose2& pose) const;
 
-  TargetsConfig config_;
+  BearingTopics topics_;
   const Transforms& transforms_;
   std::map<std::string, Poses> poses_;
   std::map<std::string, std::string> frames_;  // of each robot's sensor

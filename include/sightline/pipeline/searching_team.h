@@ -10,7 +10,7 @@
 #include "sightline/simulation/path.h"
 #include "sightline/targets/search.h"
 
-namespace sightline::bridge {
+namespace sightline::pipeline {
 
 /// Robots that follow the ways that a search chooses for them: decides when ways are chosen anew,
 /// and steers. Robots come and go.
@@ -53,4 +53,4 @@ class SearchingTeam {
   std::map<std::string, Robot> robots_;
 };
 
-}  // namespace sightline::bridge
+}  // namespace sightline::pipeline

@@ -1,9 +1,9 @@
-#include "sightline/bridge/searching_team.h"
+#include "sightline/pipeline/searching_team.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace sightline::bridge {
+namespace sightline::pipeline {
 
 SearchingTeam::SearchingTeam(targets::Search search, const targets::SearchConfig& config,
                              double max_gone)
@@ -87,4 +87,4 @@ simulation::Velocity SearchingTeam::steer(const std::string& robot, std::int64_t
   return found->second.follower->steer(found->second.T_map_sensor);
 }
 
-}  // namespace sightline::bridge
+}  // namespace sightline::pipeline
