@@ -1,10 +1,12 @@
 #include <memory>
+#include <utility>
 
 #include <ros/ros.h>
 
 #include "nodes/bearing_detector_config.h"
 #include "sightline/bridge/bearing_output.h"
 #include "sightline/bridge/live_feed.h"
+#include "sightline/bridge/log_throttle.h"
 #include "sightline/bridge/node_diagnostics.h"
 #include "sightline/bridge/parameters.h"
 
@@ -36,14 +38,14 @@ class BearingDetectorNode {
 
  private:
   void take(const pipeline::LocatedScan& located) {
-    if (!located.scan.intensities().empty()) return bearings_.write(located);
-    if (!is_blind_) {
+    const bool was_blind = std::exchange(is_blind_, located.scan.intensities().empty());
+    if (!is_blind_) return bearings_.write(located);
+    if (!was_blind && blindness_.isDue()) {
       ROS_ERROR(
           "scans of '%s' without intensities: no target can be told from a wall; tell the "
           "driver of the scanner to send them",
           located.scan.frame.c_str());
     }
-    is_blind_ = true;
     throw bridge::UnusedScan("no intensities", /*blameless=*/true);
   }
 
@@ -61,7 +63,8 @@ class BearingDetectorNode {
   bridge::Output output_;
   bridge::BearingOutput bearings_;
   bridge::LiveFeed feed_;
-  bool is_blind_ = false;  // a scan came without intensities
+  bool is_blind_ = false;  // the last scan came without intensities
+  bridge::LogThrottle blindness_;
 };
 
 }  // namespace

@@ -77,6 +77,10 @@ TEST(BearingDetectorNode, PublishesASetForEachScanAndSaysWhatItMisses) {
            diagnostics.text("bearing_detector: bearings") == "detecting";
   })) << diagnostics.text("blind/bearing_detector: bearings");
   EXPECT_EQ(none.count(), 0U);
+  const auto mend = [&] { blind_scans.publish(brightScan()); };
+  EXPECT_TRUE(test::comesTrue(
+      [&] { return diagnostics.text("blind/bearing_detector: bearings") == "detecting"; }, mend))
+      << "once its scans have intensities";
 }
 
 }  // namespace
