@@ -1,6 +1,7 @@
 #include "sightline/mapping/grid_survey.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <unordered_map>

@@ -32,11 +32,6 @@ constexpr struct {
   int rounds = 3;
 } kAlign{};
 
-// A stretch of wall, the inside of its room on the left.
-struct Piece {
-  Segment segment;
-};
-
 struct Corner {
   Eigen::Vector2d place;
   double angle;  // of the normal of the side that begins here
@@ -46,7 +41,7 @@ struct Corner {
 struct Building {
   std::vector<RoomOutline> rooms;
   std::vector<Eigen::Vector2d> doors;
-  std::vector<Piece> pieces;
+  std::vector<Segment> pieces;  // stretches of wall, the inside of their room on the left
   std::vector<Corner> corners;
 
   explicit Building(const RoomLayout& layout) : rooms(layout.rooms), doors(layout.doors) {
@@ -59,7 +54,7 @@ struct Building {
       const Segment side = room.side(i);
       for (const world::Span& span : room.spans[i]) {
         pieces.push_back(
-            {{side.start + span.from * side.direction(), side.start + span.to * side.direction()}});
+            {side.start + span.from * side.direction(), side.start + span.to * side.direction()});
       }
       const std::size_t before = (i + n - 1) % n;
       if (room.spans[i].empty() || room.spans[before].empty()) continue;
@@ -70,10 +65,10 @@ struct Building {
 
   // Whether there is wall at a place, and on either side of it.
   bool isWall(const Eigen::Vector2d& place) const {
-    return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
-      const double along = piece.segment.along(place);
-      return piece.segment.distance(place) < kAlign.door && along > kAlign.jamb &&
-             along < piece.segment.length() - kAlign.jamb;
+    return std::any_of(pieces.begin(), pieces.end(), [&](const Segment& piece) {
+      const double along = piece.along(place);
+      return piece.distance(place) < kAlign.door && along > kAlign.jamb &&
+             along < piece.length() - kAlign.jamb;
     });
   }
 
@@ -103,9 +98,9 @@ double shared(const Segment& a, const Segment& b) {
 
 double agreement(const Building& found, const Building& known, const Pose2& T) {
   double sum = 0.0;
-  for (const Piece& piece : found.pieces) {
-    const Segment here = T * piece.segment;
-    for (const Piece& other : known.pieces) sum += shared(other.segment, here);
+  for (const Segment& piece : found.pieces) {
+    const Segment here = T * piece;
+    for (const Segment& other : known.pieces) sum += shared(other, here);
   }
   return sum;
 }
@@ -113,8 +108,8 @@ double agreement(const Building& found, const Building& known, const Pose2& T) {
 // What of one building contradicts another.
 double contradiction(const Building& of, const Building& other, const Pose2& T_other_of) {
   double sum = 0.0;
-  for (const Piece& piece : of.pieces) {
-    const Segment here = T_other_of * piece.segment;
+  for (const Segment& piece : of.pieces) {
+    const Segment here = T_other_of * piece;
     const double length = here.length();
     const int places = std::max(1, static_cast<int>(length / kAlign.step));
     for (int i = 0; i < places; ++i) {
@@ -133,16 +128,16 @@ Pose2 refined(const Building& found, const Building& known, Pose2 T) {
   for (int round = 0; round < kAlign.rounds; ++round) {
     Eigen::Matrix3d information = 1e-6 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-    for (const Piece& piece : found.pieces) {
-      const Segment here = T * piece.segment;
-      for (const Piece& other : known.pieces) {
-        const double weight = shared(other.segment, here);
+    for (const Segment& piece : found.pieces) {
+      const Segment here = T * piece;
+      for (const Segment& other : known.pieces) {
+        const double weight = shared(other, here);
         if (weight <= 0.0) continue;
-        const Eigen::Vector2d n = other.segment.leftNormal();
+        const Eigen::Vector2d n = other.leftNormal();
         for (const Eigen::Vector2d& p : {here.start, here.end}) {
           const Eigen::Vector3d row(n.x(), n.y(), n.y() * p.x() - n.x() * p.y());
           information += weight * row * row.transpose();
-          gradient += weight * n.dot(p - other.segment.start) * row;
+          gradient += weight * n.dot(p - other.start) * row;
         }
       }
     }

@@ -5,13 +5,14 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "program/program.h"
 #include "program/progress_bar.h"
-#include "sightline/bridge/bag_feed.h"
+#include "program/read_bags.h"
 #include "sightline/config/error.h"
 #include "sightline/motion/odometry_fit.h"
 #include "sightline/pipeline/estimators.h"
@@ -53,17 +54,13 @@ void take(const pipeline::Estimates& estimates, motion::OdometryLegs& legs) {
 }
 
 motion::OdometryFit fit(const FitJob& job, const pipeline::EstimatorsConfig& config) {
-  bridge::BagFeed feed(job.in, config, {});
   pipeline::Estimators estimators(config, {false, config.rooms.has_value(), !config.rooms});
   motion::OdometryLegs legs;
   tools::ProgressBar bar;
-  bridge::BagFeed::Visitor visitor;
-  visitor.scan = [&](pipeline::LocatedScan located, const ros::Time&) {
-    take(estimators.take(std::move(located)), legs);
-  };
-  visitor.message = [](const rosbag::MessageInstance&) {};
-  visitor.progress = [&](double ratio) { bar.show(ratio); };
-  feed.read(visitor);
+  tools::readBags(
+      job.in, config,
+      [&](pipeline::LocatedScan located) { take(estimators.take(std::move(located)), legs); },
+      [&](double ratio) { bar.show(ratio); });
   return motion::fitOdometry(legs.legs());
 }
 
