@@ -17,9 +17,8 @@ struct OdometryLeg {
 /// A systematic error of odometry, as found.
 struct FittedError {
   double value = 0.0;
-  double sigma = 0.0;  ///< standard deviation of the value
-  bool is_known =
-      false;  ///< whether the drive tells it: the value is that of `unmeasured()` if not
+  double sigma = 0.0;     ///< standard deviation of the value
+  bool is_known = false;  ///< whether the drive tells it; if not, the value is assumed
 };
 
 struct OdometryFit {

@@ -95,14 +95,15 @@ Span openingOf(const Door& door, const Wall& wall);
 /// rooms:
 ///   office:
 ///     size: [5.0, 3.0]                 # m; a rectangle, centred on its pose
-///     pose: [12.0, 4.0, 0.1]           # m, m, rad in the map; default 0; or [x, y], turn_deg
+///     pose: [12.0, 4.0, 0.1]           # m, m, rad in the map; default 0; with turn_deg [x, y]
 ///     walls:                           # optional; others are there over their whole length
 ///       north: {spans: [[0.0, 2.0], [2.5, 5.0]]}   # m from the wall's start
 ///       east: {open: true}             # no wall at all
 ///       south: {sigma: [0.005, 0.001]} # m, rad: how well its line is known; default exactly
 ///   hall:
-///     corners: [[0.0, 0.0], [4.0, 3.0]]   # m, in the map: a rectangle's corner at the start of
-///     its turn_deg: 12.5                      # south and the one across; degrees, default 0
+///     corners: [[0.0, 0.0], [4.0, 3.0]]   # m, in the map: a rectangle, by the corner at which
+///                                         # its south wall starts and the one across
+///     turn_deg: 12.5                      # degrees; default 0
 ///   tower:
 ///     polygon: [[0, 0], [4, 0], [3, 3], [0, 2]]    # m, in the room's frame
 /// doors:
