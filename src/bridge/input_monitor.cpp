@@ -56,6 +56,13 @@ MissingInput::State InputMonitor::state() const {
   return accepted_ + dropped_ == 0 ? State::kNeverCame : State::kCeased;
 }
 
+std::string InputMonitor::awaited() const {
+  if (accepted_ == 0 && dropped_ > 0) return topic_ + " is of no use:\n" + last_reason_;
+  if (accepted_ == 0) return "nothing on " + topic_ + " yet";
+  if (state() == MissingInput::State::kCeased) return "nothing on " + topic_ + " any more";
+  return "";
+}
+
 void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   if (flow_ == Flow::kSteady) missing_.update(state());

@@ -26,7 +26,8 @@ LiveFeed::LiveFeed(ros::NodeHandle node, const pipeline::InputConfig& config,
     : updater_(updater),
       consumer_(std::move(consumer)),
       feed_(config.feed, frames, needs, transforms_),
-      input_(feed_, transforms_, frames.base) {
+      input_(feed_, transforms_, frames.base),
+      awaited_text_(node, frames.base, [this] { return awaited(); }) {
   subscribeTransforms(node, "/tf", tf_);
   subscribeTransforms(node, "/tf_static", tf_static_);
   const auto source = config.feed.odometry_source;
@@ -103,6 +104,14 @@ void LiveFeed::onScan(std::size_t scanner, const Message& message) {
     scanners_[scanner].monitor->note(field, fault);
   }
   deliver();
+}
+
+std::string LiveFeed::awaited() const {
+  for (const Input& scanner : scanners_) {
+    std::string text = scanner.monitor->awaited();
+    if (!text.empty()) return text;
+  }
+  return "";
 }
 
 void LiveFeed::deliver() {

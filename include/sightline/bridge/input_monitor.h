@@ -48,6 +48,8 @@ class InputMonitor {
   void note(const std::string& key, const std::string& text);
   /// Logs something that may happen again, once every 10 s, and counts it for diagnostics.
   void warn(const std::string& text);
+  /// Sentence on messages that never came, ceased, or were all of no use; empty where they come.
+  std::string awaited() const;
 
  private:
   void count(const std::string& reason);

@@ -11,6 +11,7 @@
 #include <ros/steady_timer.h>
 #include <tf2/buffer_core.h>
 
+#include "sightline/bridge/awaited_text.h"
 #include "sightline/bridge/feed_input.h"
 #include "sightline/bridge/input_monitor.h"
 #include "sightline/bridge/tf_transforms.h"
@@ -58,6 +59,7 @@ class LiveFeed {
   void subscribeTransforms(ros::NodeHandle& node, const std::string& topic, Input& input);
   template <class Message>
   void onScan(std::size_t scanner, const Message& message);
+  std::string awaited() const;
   void deliver();
   void deliver(pipeline::FeedResult& result);
 
@@ -75,6 +77,7 @@ class LiveFeed {
   Input odometry_;
   Input imu_;
   ros::SteadyTimer timer_;
+  AwaitedText awaited_text_;
 };
 
 }  // namespace sightline::bridge
