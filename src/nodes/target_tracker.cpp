@@ -56,11 +56,13 @@ class TargetTrackerNode {
     monitors_.emplace(robot, std::make_unique<bridge::InputMonitor>(topic, diagnostics_.updater()));
     subscribers_.push_back(node.subscribe<BearingArray>(
         topic, kQueue,
-        [this, robot](const BearingArray::ConstPtr& message) { take(robot, *message); }));
+        [this, robot](const BearingArray::ConstPtr& message) { take(robot, *message); },
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
     if (config_.pose_topic.empty()) return;
     subscribers_.push_back(node.subscribe<PoseMessage>(
         config_.topicOf(robot, config_.pose_topic), kQueue,
-        [this, robot](const PoseMessage::ConstPtr& message) { takePose(robot, *message); }));
+        [this, robot](const PoseMessage::ConstPtr& message) { takePose(robot, *message); },
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   }
 
   void take(const std::string& robot, const BearingArray& message) {
