@@ -164,7 +164,7 @@ RobotCharacter characterOf(const std::vector<KnownLook>& looks,
   ErrorFit left = character.errors;
   left.bias = left.lag = 0.0;
   character.error_inflation = inflationOf(apart, of_apart.opportunities, left);
-  places.add(apart, of_apart.opportunities, targets_map, left, character.error_inflation);
+  places.add({apart, labelling, left, character.error_inflation});
   return character;
 }
 
@@ -266,7 +266,7 @@ Characterization characterize(const std::vector<KnownLook>& looks,
   followThePaper(looks, targets_map, config, labelling, result);
   double inflated = 0.0;
   double opportunities = 0.0;
-  PlaceFit places;
+  PlaceFit places(targets_map);
   for (std::size_t robot = 0; robot < names.size(); ++robot) {
     const std::vector<KnownLook> own = looksOf(looks, robot);
     if (own.size() < kFewest) continue;
@@ -275,7 +275,8 @@ Characterization characterize(const std::vector<KnownLook>& looks,
     opportunities += static_cast<double>(character.opportunities);
     result.robots[names[robot]] = character;
   }
-  for (auto& [name, robot] : result.robots) robot.place_sigma = places.sigma();
+  const double place_sigma = places.sigma();
+  for (auto& [name, robot] : result.robots) robot.place_sigma = place_sigma;
   const double inflation = opportunities > 0.0 ? inflated / opportunities : 1.0;
   result.detection =
       fitDetectionLikelihood(result.paper_labels.opportunities, config.beam_spacing, inflation);

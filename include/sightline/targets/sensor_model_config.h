@@ -78,7 +78,9 @@ struct ClutterConfig {
   double glint_width = geometry::radians(2.5);  ///< standard deviation of that side [rad]
   /// Of the clutter that comes of things seen again and again from all sides, but seldom.
   double faint_share = 0.0;
-  double faint_detection = 0.15;  ///< probability that one is seen over that of a target
+  /// Probability that one is seen over that of a target, at most: near by, where both are most
+  /// alike.
+  double faint_detection = 0.3;
 
   void visit(config::FieldVisitor& visitor);
 };
