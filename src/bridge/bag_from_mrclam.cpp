@@ -89,6 +89,7 @@ class MrclamBag {
     }
     std::stable_sort(items_.begin(), items_.end(),
                      [](const BagItem& a, const BagItem& b) { return a.stamp < b.stamp; });
+    keepAsked();
   }
 
   MrclamBagContents write() {
@@ -124,6 +125,19 @@ class MrclamBag {
     for (std::size_t i = 0; i < robot.velocities.size(); ++i) {
       items_.push_back({robot.velocities[i].stamp, index, i, BagItem::kOdometry});
     }
+  }
+
+  // Leaves out what the options do not ask for.
+  void keepAsked() {
+    if (items_.empty()) return;
+    const auto at = [begin = items_.front().stamp](double seconds) {
+      return begin + std::llround(1e9 * seconds);
+    };
+    const auto is_beyond = [from = at(options_.from), to = at(options_.to)](const BagItem& item) {
+      return item.stamp < from || item.stamp > to;
+    };
+    items_.erase(std::remove_if(items_.begin(), items_.end(), is_beyond), items_.end());
+    if (items_.empty()) throw config::Error(path_, 0, "from", "the set has nothing in that time");
   }
 
   std::string topic(const BagItem& item, const char* name) const {
@@ -202,6 +216,8 @@ void MrclamBagOptions::visit(config::FieldVisitor& visitor) {
   visitor.number("bias", bias, {"rad", {-3.2, 3.2}, "measured less true bearing"});
   visitor.number("period", period,
                  {"s", {-1.0, 100.0}, "between two images; 0: found; negative: none put back"});
+  visitor.number("from", from, {"s", {0.0, 1e6}, "time in the set at which the bag begins"});
+  visitor.number("to", to, {"s", {0.0, 1e6}, "time in the set at which it ends"});
   visitor.number("position_sigma", position_sigma, {"m", {0.0, 1e6}, "error of poses"});
   visitor.number("heading_sigma", heading_sigma, {"rad", {0.0, 1e6}, "of headings"});
   visitor.number("pose_correlation", pose_correlation,

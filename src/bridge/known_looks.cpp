@@ -14,7 +14,7 @@ namespace {
 // The newest look of each robot, for where the others are.
 class LastLooks {
  public:
-  targets::KnownLook know(std::size_t robot, const targets::BearingSet& set, double turn_rate) {
+  targets::KnownLook know(std::size_t robot, const targets::BearingSet& set) {
     targets::KnownLook look;
     look.robot = robot;
     look.stamp = set.stamp;
@@ -24,7 +24,7 @@ class LastLooks {
       const bool is_near = std::abs(set.stamp - last.stamp) <= kSameTime;
       if (other != robot && is_near) look.mates_map.push_back(last.T_map_sensor.translation());
     }
-    look.turn_rate = turn_rate;
+    look.turn_rate = set.turn_rate;
     last_[robot] = look;
     return look;
   }
@@ -51,8 +51,8 @@ RecordedLooks readKnownLooks(const std::vector<std::string>& paths,
         continue;
       }
       const auto robot = std::find(team.robots.begin(), team.robots.end(), look.robot);
-      result.looks.push_back(last.know(static_cast<std::size_t>(robot - team.robots.begin()),
-                                       look.set, look.turn_rate));
+      result.looks.push_back(
+          last.know(static_cast<std::size_t>(robot - team.robots.begin()), look.set));
       result.field_of_view.min = std::min(result.field_of_view.min, look.set.field_of_view.min);
       result.field_of_view.max = std::max(result.field_of_view.max, look.set.field_of_view.max);
       result.range_max = std::max(result.range_max, look.set.range_max);

@@ -23,11 +23,13 @@ void TeamInput::subscribe(ros::NodeHandle& node, const std::string& robot,
   monitors_.emplace(robot, std::make_unique<InputMonitor>(topic, updater));
   subscribers_.push_back(node.subscribe<BearingArray>(
       topic, kQueue,
-      [this, robot](const BearingArray::ConstPtr& message) { take(robot, *message); }));
+      [this, robot](const BearingArray::ConstPtr& message) { take(robot, *message); },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   if (team_.pose_topic.empty()) return;
   subscribers_.push_back(node.subscribe<PoseMessage>(
       team_.topicOf(robot, team_.pose_topic), kQueue,
-      [this, robot](const PoseMessage::ConstPtr& message) { takePose(robot, *message); }));
+      [this, robot](const PoseMessage::ConstPtr& message) { takePose(robot, *message); },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
 }
 
 void TeamInput::take(const std::string& robot, const BearingArray& message) {

@@ -23,11 +23,7 @@ namespace {
 pipeline::SearchingTeam makeTeam(const SearchNodeConfig& config) {
   const auto models = config.models.empty() ? targets::SensorModelsConfig{}
                                             : targets::SensorModelsConfig::readFile(config.models);
-  std::shared_ptr<const targets::LineOfSight> sight;
-  if (!config.world.empty()) {
-    sight = std::make_shared<targets::WorldSight>(world::World::readFile(config.world),
-                                                  config.sensor_height);
-  }
+  auto sight = targets::worldSight(config.world, config.sensor_height);
   return {targets::Search(config.search, models, sight), config.search, config.max_gone};
 }
 

@@ -72,13 +72,13 @@ std::vector<BearingFeed::Ready> BearingFeed::ready(std::int64_t now) {
     const auto pose = poseOf(look, look.set.stamp);
     if (frame != look.frame) {
       result.push_back(
-          {look.robot, look.set, "two sensors under one name: " + frame + ", " + look.frame, 0.0});
+          {look.robot, look.set, "two sensors under one name: " + frame + ", " + look.frame});
     } else if (pose) {
       look.set.T_map_sensor = *pose;
-      const double turn_rate = turnRateOf(look, pose->mean);
-      result.push_back({look.robot, std::move(look.set), "", turn_rate});
+      look.set.turn_rate = turnRateOf(look, pose->mean);
+      result.push_back({look.robot, std::move(look.set), ""});
     } else if (now - look.arrival >= patience) {
-      result.push_back({look.robot, look.set, "no pose of the sensor at its stamp", 0.0});
+      result.push_back({look.robot, look.set, "no pose of the sensor at its stamp"});
     } else {
       waiting.push_back(std::move(look));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace sightline::targets {
 
@@ -63,8 +64,8 @@ void merge(Component& into, const Component& other) {
 void mergeNear(Mixture& mixture, double distance) {
   for (std::size_t i = 0; i < mixture.size(); ++i) {
     for (std::size_t j = i + 1; j < mixture.size();) {
-      const bool is_near = mixture[i].is_moving == mixture[j].is_moving &&
-                           squareDistance(mixture[i], mixture[j]) < distance;
+      const bool is_near =
+          mixture[i].mode == mixture[j].mode && squareDistance(mixture[i], mixture[j]) < distance;
       if (is_near) {
         merge(mixture[i], mixture[j]);
         mixture.erase(mixture.begin() + static_cast<std::ptrdiff_t>(j));
@@ -85,6 +86,15 @@ void normalise(Mixture& mixture) {
   for (Component& component : mixture) component.weight /= sum;
 }
 
+// Keeps the first so many components of targets, and of other things.
+void keepFirst(Mixture& mixture, std::size_t most) {
+  std::size_t kept[2] = {};
+  const auto is_beyond = [&](const Component& component) {
+    return ++kept[isTarget(component.mode) ? 0 : 1] > most;
+  };
+  mixture.erase(std::remove_if(mixture.begin(), mixture.end(), is_beyond), mixture.end());
+}
+
 }  // namespace
 
 void reduce(Mixture& mixture, double distance, double least, std::size_t most) {
@@ -94,7 +104,7 @@ void reduce(Mixture& mixture, double distance, double least, std::size_t most) {
   while (mixture.size() > 1 && mixture.back().weight < least) mixture.pop_back();
   mergeNear(mixture, distance);
   std::sort(mixture.begin(), mixture.end(), isHeavier);
-  if (mixture.size() > most) mixture.resize(most);
+  keepFirst(mixture, most);
   normalise(mixture);
 }
 
@@ -106,6 +116,26 @@ UncertainPoint momentsOf(const Mixture& mixture) {
     result.covariance += component.weight * (component.covariance + apart * apart.transpose());
   }
   return result;
+}
+
+Mixture ofTarget(const Mixture& mixture) {
+  Mixture result;
+  std::copy_if(mixture.begin(), mixture.end(), std::back_inserter(result),
+               [](const Component& component) { return isTarget(component.mode); });
+  normalise(result);
+  return result;
+}
+
+double shareOf(const Mixture& mixture, Mode mode) {
+  double share = 0.0;
+  for (const Component& component : mixture) share += component.mode == mode ? component.weight : 0;
+  return share;
+}
+
+double targetExistence(const Bernoulli& bernoulli) {
+  const double share =
+      shareOf(bernoulli.mixture, Mode::kStanding) + shareOf(bernoulli.mixture, Mode::kMoving);
+  return bernoulli.existence * std::min(share, 1.0);
 }
 
 }  // namespace sightline::targets

@@ -70,7 +70,8 @@ void BernoulliFilter::predict(Bernoulli& bernoulli) const {
   bernoulli.stamp = stamp_;
   bernoulli.existence *= std::exp(-duration / config_.lifetime);
   for (Component& component : bernoulli.mixture) {
-    const double noise = component.is_moving ? config_.moving_noise : config_.static_noise;
+    const double noise =
+        component.mode == Mode::kMoving ? config_.moving_noise : config_.static_noise;
     component.covariance.diagonal().array() += noise * duration;
   }
 }
@@ -105,28 +106,37 @@ void BernoulliFilter::update(const BearingSet& set, const SensorModel& model) {
            static_cast<std::size_t>(config_.components));
   }
   for (std::size_t m = 0; m < look.size(); ++m) {
-    const double share = births[m].mass / unknown[m];
-    add(std::move(births[m]), share * association.unassigned[static_cast<Eigen::Index>(m)], look);
+    const double is_new = association.unassigned[static_cast<Eigen::Index>(m)];
+    add(births[m], is_new / unknown[m], look.clutter(m), look);
   }
   undetected_.look(set.T_map_sensor.mean, model, look.fieldOfView());
   prune();
   label();
 }
 
-void BernoulliFilter::add(Birth birth, double existence, const Look& look) {
-  if (existence < config_.least_existence) return;
+// `scale`: probability by mass [rad]; `clutter`: its density [1/rad], part of which is of things
+// that will be seen again.
+void BernoulliFilter::add(const Birth& birth, double scale, double clutter, const Look& look) {
+  if (scale * birth.mass < config_.least_existence) return;
+  const ClutterConfig& lasting = look.model().config().clutter;
+  const double mass = birth.mass + (lasting.glint_share + lasting.faint_share) * clutter;
+  ModeShares shares;
+  shares.moving = config_.moving_share * birth.mass / mass;
+  shares.glint = lasting.glint_share * clutter / mass;
+  shares.faint = lasting.faint_share * clutter / mass;
   Bernoulli bernoulli;
-  bernoulli.existence = existence;
+  bernoulli.existence = std::min(scale * mass, 1.0);
   bernoulli.stamp = stamp_;
-  bernoulli.mixture = withModes(std::move(birth.mixture), config_.moving_share);
+  bernoulli.mixture = withModes(birth.mixture, shares, look);
   noteVisible(bernoulli, look);
   bernoullis_.push_back(std::move(bernoulli));
 }
 
 void BernoulliFilter::prune() {
   const auto is_unlikely = [&](const Bernoulli& bernoulli) {
-    if (bernoulli.existence >= config_.least_existence) return false;
-    undetected_.add(bernoulli.mixture.front().mean, bernoulli.existence);
+    const double existence = targetExistence(bernoulli);
+    if (existence >= config_.least_existence) return false;
+    undetected_.add(bernoulli.mixture.front().mean, existence);
     return true;
   };
   bernoullis_.erase(std::remove_if(bernoullis_.begin(), bernoullis_.end(), is_unlikely),
@@ -136,9 +146,11 @@ void BernoulliFilter::prune() {
 // A report of a target that is there, at a distance d from where it is, costs d and saves the
 // cut-off c; of one that is not, it costs c: it pays where r (c − d) > (1 − r) c.
 bool BernoulliFilter::isReported(const Bernoulli& bernoulli) const {
-  const double error = std::sqrt(momentsOf(bernoulli.mixture).covariance.trace());
+  const double existence = targetExistence(bernoulli);
+  if (existence <= 0.5) return false;
+  const double error = std::sqrt(momentsOf(ofTarget(bernoulli.mixture)).covariance.trace());
   const double gain = std::max(config_.cutoff - error, 0.0);
-  return bernoulli.existence * gain > (1.0 - bernoulli.existence) * config_.cutoff;
+  return existence * gain > (1.0 - existence) * config_.cutoff;
 }
 
 void BernoulliFilter::label() {
@@ -149,7 +161,8 @@ void BernoulliFilter::label() {
 
 // The heaviest Gaussian's mean; the covariance of all, and of what no bearing tells.
 UncertainPoint BernoulliFilter::placeOf(const Bernoulli& bernoulli) const {
-  UncertainPoint place{bernoulli.mixture.front().mean, momentsOf(bernoulli.mixture).covariance};
+  const Mixture mixture = ofTarget(bernoulli.mixture);
+  UncertainPoint place{mixture.front().mean, momentsOf(mixture).covariance};
   place.covariance.diagonal().array() += place_sigma_ * place_sigma_;
   return place;
 }
@@ -159,13 +172,13 @@ TargetEstimate BernoulliFilter::estimate() {
   result.stamp = stamp_;
   result.expected_undetected = undetected_.mass();
   for (const Bernoulli& bernoulli : bernoullis_) {
-    const double existence = bernoulli.existence;
+    const double existence = targetExistence(bernoulli);
     result.expected_number += existence;
     result.number_variance += existence * (1.0 - existence);
     if (bernoulli.label == 0 || !isReported(bernoulli)) continue;
     const UncertainPoint place = placeOf(bernoulli);
-    result.targets.push_back(
-        {bernoulli.label, place.mean, place.covariance, existence, movingShare(bernoulli.mixture)});
+    const double moving = shareOf(ofTarget(bernoulli.mixture), Mode::kMoving);
+    result.targets.push_back({bernoulli.label, place.mean, place.covariance, existence, moving});
   }
   return result;
 }

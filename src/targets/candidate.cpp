@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -29,6 +31,27 @@ void setVisibility(Bernoulli& bernoulli, const Look& look, double probability) {
   bernoulli.visibility[robot] = {probability, look.set().stamp};
 }
 
+// From a place to the look's sensor, in the map [rad].
+double directionTo(const Look& look, const Eigen::Vector2d& place_map) {
+  const Eigen::Vector2d way = look.pose().mean.translation() - place_map;
+  return std::atan2(way.y(), way.x());
+}
+
+// Probability of being seen over that of a target there. That of a glint is a Gaussian lobe about
+// where it faces: mean over where it may be, which turns the direction to the sensor as it does the
+// bearing.
+double brightness(const Look& look, const Component& component,
+                  const BearingPrediction& prediction) {
+  const ClutterConfig& clutter = look.model().config().clutter;
+  if (component.mode == Mode::kFaint) return clutter.faint_detection;
+  if (component.mode != Mode::kGlint) return 1.0;
+  const double lobe = std::pow(clutter.glint_width, 2);
+  const double spread = prediction.variance - std::pow(look.sigma(), 2);
+  const double off = geometry::wrapAngle(directionTo(look, component.mean) - component.facing);
+  const double width = lobe + spread;
+  return std::sqrt(lobe / width) * std::exp(-0.5 * off * off / width);
+}
+
 }  // namespace
 
 Candidate::Candidate(std::size_t index, const Bernoulli& bernoulli, const Look& look)
@@ -43,7 +66,8 @@ Candidate::Candidate(std::size_t index, const Bernoulli& bernoulli, const Look& 
         (look.model().config().bearing.inflation - 1.0) * look.sigma() * look.sigma();
     const double visible_detection =
         std::min(0.999, scale * look.detection(component, predictions_.back().polar));
-    detections_.push_back(visible_ * visible_detection);
+    detections_.push_back(visible_ * visible_detection *
+                          brightness(look, component, predictions_.back()));
     detection_ += component.weight * detections_.back();
   }
   if (detection_ == 0.0) return;
@@ -76,20 +100,29 @@ void Candidate::addSeen(const Bernoulli& bernoulli, std::size_t measurement, dou
     const double innovation =
         geometry::wrapAngle(look_.bearing(measurement) - predictions_[j].polar.bearing);
     mixture.push_back(updated(bernoulli.mixture[j], predictions_[j], innovation));
-    mixture.back().weight = share;
+    mixture.back().weight = share * look_.inSight(mixture.back());
   }
 }
 
+namespace {
+
+double sumOf(const Mixture& mixture) {
+  return std::accumulate(mixture.begin(), mixture.end(), 0.0,
+                         [](double sum, const Component& c) { return sum + c.weight; });
+}
+
+}  // namespace
+
 void Candidate::apply(const Eigen::RowVectorXd& assigned, Bernoulli& bernoulli) const {
-  const double seen = std::min(assigned.sum(), 1.0);
-  const double exists_unseen =
-      (1.0 - seen) * existence_ * (1.0 - detection_) / (1.0 - existence_ * detection_ + 1e-12);
+  const double exists_unseen = (1.0 - std::min(assigned.sum(), 1.0)) * existence_ *
+                               (1.0 - detection_) / (1.0 - existence_ * detection_ + 1e-12);
   Mixture mixture;
   addMissed(bernoulli, exists_unseen, mixture);
   for (std::size_t m = 0; m < sums_.size(); ++m) {
     const double probability = assigned[static_cast<Eigen::Index>(m)];
     if (probability > 1e-5) addSeen(bernoulli, m, probability, mixture);
   }
+  const double seen = std::min(sumOf(mixture) - exists_unseen, 1.0);
   bernoulli.mixture = std::move(mixture);
   bernoulli.existence = std::min(exists_unseen + seen, 1.0);
   const double visible_unseen = (visible_ - detection_) / (1.0 - detection_ + 1e-12);
@@ -110,22 +143,23 @@ void noteVisible(Bernoulli& bernoulli, const Look& look) {
   setVisibility(bernoulli, look, 1.0);
 }
 
-Mixture withModes(Mixture mixture, double moving_share) {
-  if (moving_share == 0.0) return mixture;
-  const std::size_t standing = mixture.size();
-  for (std::size_t i = 0; i < standing; ++i) {
-    mixture.push_back(mixture[i]);
-    mixture.back().is_moving = true;
-    mixture.back().weight *= moving_share;
-    mixture[i].weight *= 1.0 - moving_share;
+Mixture withModes(const Mixture& mixture, const ModeShares& shares, const Look& look) {
+  const double standing = 1.0 - shares.moving - shares.glint - shares.faint;
+  const std::pair<Mode, double> modes[] = {{Mode::kStanding, standing},
+                                           {Mode::kMoving, shares.moving},
+                                           {Mode::kGlint, shares.glint},
+                                           {Mode::kFaint, shares.faint}};
+  Mixture result;
+  for (const auto& [mode, share] : modes) {
+    if (share <= 0.0) continue;
+    for (Component component : mixture) {
+      component.mode = mode;
+      component.weight *= share;
+      component.facing = directionTo(look, component.mean);
+      result.push_back(component);
+    }
   }
-  return mixture;
-}
-
-double movingShare(const Mixture& mixture) {
-  double share = 0.0;
-  for (const Component& component : mixture) share += component.is_moving ? component.weight : 0.0;
-  return share;
+  return result;
 }
 
 namespace {
@@ -141,6 +175,7 @@ double densityAt(const Component& component, const Eigen::Vector2d& point) {
 
 void addDensity(const Bernoulli& bernoulli, IntensityGrid& grid) {
   for (Component component : bernoulli.mixture) {
+    if (!isTarget(component.mode)) continue;
     // A Gaussian narrower than a cell would fall between their centres.
     component.covariance.diagonal().array() += grid.resolution * grid.resolution / 12.0;
     const double reach = 3.0 * std::sqrt(component.covariance.trace());

@@ -96,8 +96,10 @@ std::vector<KnownLook> looksOf(const std::vector<KnownLook>& looks, std::size_t 
   return result;
 }
 
-LabellingConfig labellingOf(const CharacterizationConfig& config) {
+LabellingConfig labellingOf(const CharacterizationConfig& config,
+                            std::shared_ptr<const LineOfSight> sight) {
   LabellingConfig labelling;
+  labelling.sight = std::move(sight);
   labelling.field_of_view = config.field_of_view;
   labelling.range_max = config.range_max;
   labelling.sigma = config.sigma;
@@ -141,9 +143,9 @@ void addCorrelation(const std::vector<KnownLook>& looks, const Labels& labels,
 
 RobotCharacter characterOf(const std::vector<KnownLook>& looks,
                            const std::vector<Eigen::Vector2d>& targets_map,
-                           const CharacterizationConfig& config, PlaceFit& places) {
+                           const CharacterizationConfig& config, LabellingConfig labelling,
+                           PlaceFit& places) {
   RobotCharacter character;
-  LabellingConfig labelling = labellingOf(config);
   character.errors = fitErrors(looks, targets_map, labelling);
   const Labels labels = label(looks, targets_map, labelling);
   character.looks = looks.size();
@@ -162,14 +164,14 @@ RobotCharacter characterOf(const std::vector<KnownLook>& looks,
   ErrorFit left = character.errors;
   left.bias = left.lag = 0.0;
   character.error_inflation = inflationOf(apart, of_apart.opportunities, left);
-  places.add(apart, of_apart.opportunities, targets_map, left, character.error_inflation);
+  places.add({apart, labelling, left, character.error_inflation});
   return character;
 }
 
 void followThePaper(const std::vector<KnownLook>& looks,
                     const std::vector<Eigen::Vector2d>& targets_map,
-                    const CharacterizationConfig& config, Characterization& result) {
-  LabellingConfig labelling = labellingOf(config);
+                    const CharacterizationConfig& config, LabellingConfig labelling,
+                    Characterization& result) {
   labelling.method = LabellingMethod::kNearest;
   result.paper_labels = label(looks, targets_map, labelling);
   result.bins = binByRange(result.paper_labels.opportunities);
@@ -229,6 +231,7 @@ SensorModelConfig RobotCharacter::model() const {
   model.visibility = visibility;
   model.bearing.sigma = std::max(errors.sigma, 1e-4);
   model.bearing.bias = errors.bias;
+  model.bearing.lag = std::clamp(errors.lag, -10.0, 10.0);
   model.bearing.tail = std::min(errors.tail, 10.0);
   model.bearing.inflation = std::min(error_inflation, 1e4);
   model.bearing.place_sigma = std::min(place_sigma, 10.0);
@@ -247,7 +250,8 @@ SensorModelsConfig Characterization::models() const {
 Characterization characterize(const std::vector<KnownLook>& looks,
                               const std::vector<std::string>& names,
                               const std::vector<Eigen::Vector2d>& targets_map,
-                              const CharacterizationConfig& config) {
+                              const CharacterizationConfig& config,
+                              std::shared_ptr<const LineOfSight> sight) {
   constexpr std::size_t kFewest = 100;
   config::validate(config);
   if (targets_map.empty()) throw config::Error("", 0, "targets", "none are known");
@@ -258,19 +262,21 @@ Characterization characterize(const std::vector<KnownLook>& looks,
   }
   Characterization result;
   result.looks = looks.size();
-  followThePaper(looks, targets_map, config, result);
+  const LabellingConfig labelling = labellingOf(config, std::move(sight));
+  followThePaper(looks, targets_map, config, labelling, result);
   double inflated = 0.0;
   double opportunities = 0.0;
-  PlaceFit places;
+  PlaceFit places(targets_map);
   for (std::size_t robot = 0; robot < names.size(); ++robot) {
     const std::vector<KnownLook> own = looksOf(looks, robot);
     if (own.size() < kFewest) continue;
-    const RobotCharacter character = characterOf(own, targets_map, config, places);
+    const RobotCharacter character = characterOf(own, targets_map, config, labelling, places);
     inflated += character.inflation * static_cast<double>(character.opportunities);
     opportunities += static_cast<double>(character.opportunities);
     result.robots[names[robot]] = character;
   }
-  for (auto& [name, robot] : result.robots) robot.place_sigma = places.sigma();
+  const double place_sigma = places.sigma();
+  for (auto& [name, robot] : result.robots) robot.place_sigma = place_sigma;
   const double inflation = opportunities > 0.0 ? inflated / opportunities : 1.0;
   result.detection =
       fitDetectionLikelihood(result.paper_labels.opportunities, config.beam_spacing, inflation);

@@ -70,6 +70,11 @@ Pairing bestTogether(const std::vector<LabelPair>& pairs, std::size_t opportunit
   return result;
 }
 
+bool isInSight(const KnownLook& look, const Eigen::Vector2d& target_map,
+               const LabellingConfig& config) {
+  return !config.sight || config.sight->isClear(look.T_map_sensor.translation(), target_map);
+}
+
 std::vector<Opportunity> opportunitiesOf(const KnownLook& look, std::size_t index,
                                          const std::vector<Eigen::Vector2d>& targets_map,
                                          const LabellingConfig& config) {
@@ -79,7 +84,8 @@ std::vector<Opportunity> opportunitiesOf(const KnownLook& look, std::size_t inde
     const Polar place = polarOf(T_sensor_map * targets_map[i]);
     const bool is_in_view = place.range >= config.range_min && place.range <= config.range_max &&
                             config.field_of_view.contains(place.bearing);
-    if (is_in_view) result.push_back({index, i, place, false, 0.0});
+    if (is_in_view && isInSight(look, targets_map[i], config))
+      result.push_back({index, i, place, false, 0.0});
   }
   return result;
 }

@@ -26,6 +26,18 @@ Eigen::Matrix2d rootOf(const Eigen::Matrix2d& covariance) {
   return root;
 }
 
+// Mean of a function of the place over a component, by its sigma points.
+template <class Function>
+double meanOver(const Component& component, const Function& function) {
+  const Eigen::Matrix2d root = kSqrtTwo * rootOf(component.covariance);
+  double sum = 0.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    sum += function(component.mean + root.col(axis));
+    sum += function(component.mean - root.col(axis));
+  }
+  return 0.25 * sum;
+}
+
 }  // namespace
 
 Look::Look(const BearingSet& set, const SensorModel& model)
@@ -34,12 +46,14 @@ Look::Look(const BearingSet& set, const SensorModel& model)
       T_sensor_map_(set.T_map_sensor.mean.inverse()),
       field_of_view_(set.field_of_view.within(model.config().field_of_view)),
       sigma_(std::max(model.config().bearing.sigma * model.config().bearing.tail, set.sigma)) {
+  const BearingConfig& errors = model.config().bearing;
   for (const double bearing : set.bearings) {
-    bearings_.push_back(geometry::wrapAngle(bearing - model.config().bearing.bias));
+    const double late = errors.lag * set.turn_rate;
+    bearings_.push_back(geometry::wrapAngle(bearing - errors.bias - late));
     clutter_.push_back(model.clutter(bearings_.back(), set.T_map_sensor.mean));
   }
   for (const UncertainPoint& point : set.known) {
-    const Component component{1.0, point.mean, point.covariance, false};
+    const Component component{1.0, point.mean, point.covariance};
     const BearingPrediction prediction = predictBearing(component, pose(), sigma_);
     const double detected = detection(prediction.polar);
     if (detected > 0.0) known_.push_back({prediction, detected});
@@ -66,19 +80,22 @@ double Look::detection(const Polar& place) const {
 }
 
 double Look::detectionAt(const Eigen::Vector2d& point_map) const {
-  return detection(polarOf(T_sensor_map_ * point_map));
+  const double detected = detection(polarOf(T_sensor_map_ * point_map));
+  return detected > 0.0 && model_.isInSight(point_map, pose().mean) ? detected : 0.0;
 }
 
 double Look::detection(const Component& component, const Polar& mean) const {
-  if (!model_.isInSight(component.mean, pose().mean)) return 0.0;
-  if (component.covariance.trace() < kSmallSpread * kSmallSpread) return detection(mean);
-  const Eigen::Matrix2d root = kSqrtTwo * rootOf(component.covariance);
-  double sum = 0.0;
-  for (int axis = 0; axis < 2; ++axis) {
-    sum += detectionAt(component.mean + root.col(axis));
-    sum += detectionAt(component.mean - root.col(axis));
+  if (component.covariance.trace() < kSmallSpread * kSmallSpread) {
+    return model_.isInSight(component.mean, pose().mean) ? detection(mean) : 0.0;
   }
-  return 0.25 * sum;
+  return meanOver(component, [&](const Eigen::Vector2d& place) { return detectionAt(place); });
+}
+
+double Look::inSight(const Component& component) const {
+  if (!model_.hasSight()) return 1.0;
+  return meanOver(component, [&](const Eigen::Vector2d& place) {
+    return model_.isInSight(place, pose().mean) ? 1.0 : 0.0;
+  });
 }
 
 double Look::likelihood(std::size_t measurement, const BearingPrediction& prediction) const {

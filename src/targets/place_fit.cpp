@@ -9,33 +9,48 @@
 
 namespace sightline::targets {
 
-void PlaceFit::add(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
-                   const std::vector<Eigen::Vector2d>& targets_map, const ErrorFit& fit,
-                   double inflation) {
-  constexpr double kFarthest = 3.0;  // in standard deviations, beyond which an error is of others
-  const double sigma = fit.sigma * fit.tail;
-  if (!(sigma > 0.0)) return;
-  const double weight = 1.0 / (sigma * sigma * inflation);
-  for (const Opportunity& one : labelled) {
-    if (!one.is_detected || std::abs(one.error) > kFarthest * sigma) continue;
-    const Eigen::RowVector2d slope =
-        bearingJacobians(targets_map[one.target], looks[one.look].T_map_sensor).point;
-    Sums& sums = targets_[one.target];
-    sums.information += weight * slope.transpose() * slope;
-    sums.moment += weight * one.error * slope.transpose();
-    ++sums.count;
+bool PlaceFit::Sums::isEnough() const {
+  constexpr std::size_t kFewest = 20;
+  return count >= kFewest && information.determinant() > 0.0;
+}
+
+void PlaceFit::Sums::add(double weight, double error, const Eigen::RowVector2d& slope) {
+  information += weight * slope.transpose() * slope;
+  moment += weight * error * slope.transpose();
+  ++count;
+}
+
+std::vector<PlaceFit::Sums> PlaceFit::sumsAt(const std::vector<Eigen::Vector2d>& seen_map) const {
+  std::vector<Sums> sums(seen_map.size());
+  for (const PlaceLooks& robot : robots_) {
+    const double sigma = robot.errors.sigma * robot.errors.tail;
+    if (!(sigma > 0.0)) continue;
+    const double weight = 1.0 / (sigma * sigma * robot.inflation);
+    for (const Opportunity& one : label(robot.looks, seen_map, robot.labelling).opportunities) {
+      if (!one.is_detected) continue;
+      const geometry::Pose2& pose = robot.looks[one.look].T_map_sensor;
+      sums[one.target].add(weight, one.error, bearingJacobians(seen_map[one.target], pose).point);
+    }
   }
+  return sums;
 }
 
 double PlaceFit::sigma() const {
-  constexpr std::size_t kFewest = 20;
+  constexpr int kRounds = 4;
+  std::vector<Eigen::Vector2d> seen_map = targets_map_;
+  std::vector<Sums> sums;
+  for (int round = 0; round < kRounds; ++round) {
+    sums = sumsAt(seen_map);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      if (sums[i].isEnough()) seen_map[i] += sums[i].information.inverse() * sums[i].moment;
+    }
+  }
   double variance = 0.0;
   double count = 0.0;
-  for (const auto& [target, sums] : targets_) {
-    if (sums.count < kFewest || sums.information.determinant() <= 0.0) continue;
-    const Eigen::Matrix2d covariance = sums.information.inverse();
-    const Eigen::Vector2d displacement = covariance * sums.moment;
-    variance += 0.5 * (displacement.squaredNorm() - covariance.trace());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (!sums[i].isEnough()) continue;
+    const double square = (seen_map[i] - targets_map_[i]).squaredNorm();
+    variance += 0.5 * (square - sums[i].information.inverse().trace());
     count += 1.0;
   }
   return count > 0.0 ? std::sqrt(std::max(variance / count, 0.0)) : 0.0;

@@ -91,6 +91,9 @@ void BearingConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("sigma", sigma,
                  {"rad", {1e-6, 1.0}, "standard deviation of a bearing, sigma (dames eq. 2)"});
   visitor.number("bias", bias, {"rad", {-1.0, 1.0}, "measured less true bearing"});
+  visitor.number(
+      "lag", lag,
+      {"s", {-10.0, 10.0}, "time that looks are stamped late, made good by the turn rate"});
   visitor.number("tail", tail,
                  {"1", {1.0, 10.0}, "factor on sigma in filters, for errors with heavy tails"});
   visitor.number(
@@ -114,6 +117,19 @@ void ClutterConfig::visit(config::FieldVisitor& visitor) {
   visitor.number(
       "peak_width", peak_width,
       {"rad", {0.0, geometry::kPi}, "width of the peaks at +-pi/2, theta_c (dames eq. 3)"});
+  visitor.number(
+      "glint_share", glint_share,
+      {"1", kProbability,
+       "share of the clutter that comes of surfaces that shine towards one side, such as "
+       "bare metal, in every look from there; 0: looks are independent"});
+  visitor.number("glint_width", glint_width,
+                 {"rad", {1e-4, geometry::kPi}, "standard deviation of that side"});
+  visitor.number("faint_share", faint_share,
+                 {"1", kProbability,
+                  "share of the clutter that comes of things that are seen from all sides, but "
+                  "seldom, such as poles of bare metal; with glint_share 1 at most"});
+  visitor.number("faint_detection", faint_detection,
+                 {"1", kProbability, "probability that such a thing is seen over a target's"});
 }
 
 void SensorModelConfig::visit(config::FieldVisitor& visitor) {
@@ -133,6 +149,9 @@ void SensorModelConfig::check(const std::string& source) const {
   if (detection.range_min >= detection.range_max)
     refuse("detection.range_min", "not below range_max");
   if (detection.table) checkTable(*detection.table, source);
+  if (clutter.glint_share + clutter.faint_share > 1.0) {
+    refuse("clutter.faint_share", "with glint_share above 1");
+  }
   if (clutter.uniform_share == 1.0) return;
   if (clutter.peak_width == 0.0) refuse("clutter.peak_width", "0 with a share in the peaks");
   const double edge = 0.5 * (geometry::kPi + clutter.peak_width);

@@ -31,9 +31,7 @@ TargetTracker::TargetTracker(const TargetTrackerConfig& config)
     : config_(config), filter_(makeFilter(config)) {
   config::validate(config_);
   if (!config_.models.empty()) models_ = SensorModelsConfig::readFile(config_.models);
-  if (config_.world.empty()) return;
-  sight_ =
-      std::make_shared<WorldSight>(world::World::readFile(config_.world), config_.sensor_height);
+  sight_ = worldSight(config_.world, config_.sensor_height);
 }
 
 void TargetTracker::reset() {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "sightline/bridge/known_looks.h"
 #include "sightline/config/error.h"
 #include "sightline/config/yaml_writer.h"
+#include "sightline/mapping/grid_map.h"
 #include "sightline/pipeline/estimators_config.h"
 #include "sightline/targets/target_log.h"
 
@@ -25,6 +27,7 @@ struct SensorJob {
   std::string config;
   std::string truth;
   std::string out;
+  std::optional<std::string> grid;  // path of a map_server's map
   std::optional<std::string> scan;  // topic of scans with intensities
   double beam_spacing = 1.0;        // [deg]
   double sigma = 2.25;              // [deg]
@@ -56,6 +59,14 @@ void drawScan(const SensorJob& job) {
   bridge::drawBrightScan(*scan, detector, (std::filesystem::path(job.out) / "scan.png").string());
 }
 
+// What hides targets: the grid, or the world of the settings, or nothing.
+std::shared_ptr<const targets::LineOfSight> sightOf(const SensorJob& job,
+                                                    const targets::TargetTrackerConfig& settings) {
+  if (!job.grid) return targets::worldSight(settings.world, settings.sensor_height);
+  const mapping::GridMap map = mapping::readGridMap(*job.grid);
+  return std::make_shared<targets::GridSight>(map.cells, map.T_map_grid);
+}
+
 int characterizeSensors(const SensorJob& job) {
   const auto settings = pipeline::EstimatorsConfig::readFile(job.config);
   if (!settings.targets) throw config::Error(job.config, 0, "targets", "missing");
@@ -70,8 +81,8 @@ int characterizeSensors(const SensorJob& job) {
   config.beam_spacing = geometry::radians(job.beam_spacing);
   config.sigma = geometry::radians(job.sigma);
   config.spacing = settings.targets->tracker.spacing;
-  const auto found =
-      targets::characterize(recorded.looks, settings.targets->robots, targets_map, config);
+  const auto found = targets::characterize(recorded.looks, settings.targets->robots, targets_map,
+                                           config, sightOf(job, settings.targets->tracker));
   std::filesystem::create_directories(job.out);
   writeModels(found, (std::filesystem::path(job.out) / "sensor_models.yaml").string());
   bridge::drawCharacterization(found, config, job.out);
@@ -97,6 +108,9 @@ int main(int argc, char** argv) {
   program.requiredOption("--out", job.out, "DIR", "folder for sensor_models.yaml and the pictures");
   program.option("--beam-spacing", job.beam_spacing, "DEGREES", "theta_sep of eq. 1, by default 1");
   program.option("--sigma", job.sigma, "DEGREES", "for the first labels, by default 2.25");
+  program.option("--grid", job.grid, "MAP.yaml",
+                 "of a map_server, whose occupied cells hide targets; without: the world of the "
+                 "settings does");
   program.option("--scan", job.scan, "TOPIC",
                  "of scans with intensities, for a picture after figure 4 of one of them");
   program.option("--threshold", job.threshold, "INTENSITY",

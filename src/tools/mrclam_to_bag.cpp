@@ -40,6 +40,9 @@ int main(int argc, char** argv) {
   program.option("--period", options.period, "SECONDS",
                  "between two images, for the empty looks, which the log leaves out; by default "
                  "found in the log of each robot; negative: leave them out");
+  program.option("--from", options.from, "SECONDS",
+                 "after the beginning of the set, at which the bag begins");
+  program.option("--to", options.to, "SECONDS", "at which it ends");
   program.option("--position-sigma", options.position_sigma, "METRES",
                  "add errors to the poses, in x and in y");
   program.option("--heading-sigma", options.heading_sigma, "DEGREES", "and in heading");

@@ -34,6 +34,7 @@ void measureRealTeam() {
   if (data && std::filesystem::exists(folder)) {
     bench::measureRealSensors(folder.string());
     bench::measureReal(folder.string(), seedsOf(8));
+    bench::measureRealHalves(folder.string(), seedsOf(4));
   } else {
     fmt::print("# targets.real: left out, SIGHTLINE_DATA holds no mrclam6\n");
   }

@@ -48,7 +48,7 @@ TEST(BearingFeed, WaitsForThePoseAndInterpolates) {
   EXPECT_EQ(ready[0].fault, "");
   EXPECT_NEAR(ready[0].set.T_map_sensor.mean.x(), 0.6, 0.02);
   EXPECT_NEAR(ready[0].set.T_map_sensor.covariance(0, 0), 0.01, 1e-12);
-  EXPECT_NEAR(ready[0].turn_rate, 2.0, 1e-6);
+  EXPECT_NEAR(ready[0].set.turn_rate, 2.0, 1e-6);
 }
 
 TEST(BearingFeed, GivesUpWhatHasNoPose) {

@@ -49,6 +49,19 @@ TEST(Labelling, GivesEachTargetOneMeasurement) {
   EXPECT_EQ(labels.clutter.size(), 2U);
 }
 
+TEST(Labelling, TargetsBehindWallsAreNoMisses) {
+  world::World world;
+  world.add(world::WorldSegment{geometry::Segment{{1.5, -1.0}, {1.5, 1.0}}});
+  const KnownLook look;
+  LabellingConfig config;
+  const std::vector<Eigen::Vector2d> targets{{1.0, 0.0}, {2.0, 0.0}};
+  EXPECT_EQ(label({look}, targets, config).opportunities.size(), 2U);
+  config.sight = std::make_shared<WorldSight>(world, 0.3);
+  const Labels labels = label({look}, targets, config);
+  ASSERT_EQ(labels.opportunities.size(), 1U);
+  EXPECT_EQ(labels.opportunities[0].target, 0U);
+}
+
 // One measurement lies between two targets: given to the nearer one, the other target is missed.
 TEST(Labelling, OptimalFindsMorePairsThanNearestFirst) {
   KnownLook look;
@@ -87,6 +100,24 @@ TEST(CharacterizationStatistics, RecoversThePapersValues) {
     EXPECT_NEAR(geometry::degrees(robot.errors.sigma), 2.25, 0.35) << name;
     EXPECT_LT(std::abs(robot.errors.bias), 0.01) << name;
   }
+}
+
+// A wall across the field: those who do not know of it take every target behind it for missed.
+TEST(CharacterizationStatistics, LineOfSightKeepsMissesApart) {
+  world::World world;
+  world.add(world::WorldSegment{geometry::Segment{{10.0, 0.0}, {10.0, 20.0}}});
+  const auto sight = std::make_shared<WorldSight>(std::move(world), 0.3);
+  SimulatedTeam team({}, 7, sight);
+  const std::vector<KnownLook> looks = knownLooksOf(team, 1959);
+  const auto missed = [&](std::shared_ptr<const LineOfSight> told) {
+    const Characterization found =
+        characterize(looks, {"a", "b", "c"}, team.targets(), {}, std::move(told));
+    EXPECT_EQ(found.detection.isRefused(), false);
+    const auto tries = static_cast<double>(found.paper_labels.opportunities.size());
+    return 1.0 - static_cast<double>(found.paper_labels.detected) / tries;
+  };
+  EXPECT_NEAR(missed(sight), 0.5, 0.05);
+  EXPECT_GT(missed(nullptr), missed(sight) + 0.04);
 }
 
 TEST(CharacterizationStatistics, SaysWhatTheDataDoNotDetermine) {

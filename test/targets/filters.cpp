@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
+#include "bearing_looks.h"
 #include "monte_carlo.h"
 #include "numeric_jacobian.h"
 #include "sightline/logs/ospa.h"
@@ -15,22 +16,13 @@
 namespace sightline::targets {
 namespace {
 
+using test::bearingOf;
+using test::lookFrom;
+
 logs::Points placesOf(const TargetEstimate& estimate) {
   logs::Points places;
   for (const Target& target : estimate.targets) places.push_back(target.mean);
   return places;
-}
-
-BearingSet lookFrom(const geometry::Pose2& pose, std::vector<double> bearings, double time = 0.0) {
-  BearingSet set;
-  set.T_map_sensor.mean = pose;
-  set.bearings = std::move(bearings);
-  set.stamp = std::llround(1e9 * time);
-  return set;
-}
-
-double bearingOf(const Eigen::Vector2d& point, const geometry::Pose2& pose) {
-  return polarOf(pose.inverse() * point).bearing;
 }
 
 TEST(Bernoulli, BearingJacobiansAreThoseOfTheBearing) {
@@ -53,7 +45,7 @@ TEST(Bernoulli, MergingKeepsMeanAndCovariance) {
   test::Gauss gauss(3);
   Mixture mixture;
   for (int i = 0; i < 5; ++i) {
-    mixture.push_back({0.2, {gauss(0.3), gauss(0.3)}, Eigen::Matrix2d::Identity(), false});
+    mixture.push_back({0.2, {gauss(0.3), gauss(0.3)}, Eigen::Matrix2d::Identity()});
   }
   const UncertainPoint before = momentsOf(mixture);
   reduce(mixture, 100.0, 0.0, 8);
@@ -63,8 +55,8 @@ TEST(Bernoulli, MergingKeepsMeanAndCovariance) {
 }
 
 TEST(Bernoulli, StandingAndMovingStayApart) {
-  Mixture mixture{{0.5, {0.0, 0.0}, Eigen::Matrix2d::Identity(), false},
-                  {0.5, {0.0, 0.0}, Eigen::Matrix2d::Identity(), true}};
+  Mixture mixture{{0.5, {0.0, 0.0}, Eigen::Matrix2d::Identity()},
+                  {0.5, {0.0, 0.0}, Eigen::Matrix2d::Identity(), Mode::kMoving}};
   reduce(mixture, 100.0, 0.0, 8);
   EXPECT_EQ(mixture.size(), 2U);
 }

@@ -11,33 +11,29 @@ namespace {
 
 using geometry::Pose2;
 
-// A robot circles each target and sees it displaced.
+// A robot circles targets that are far apart, and sees each displaced.
 double placeSigmaOf(double displaced, double sigma) {
   test::Gauss gauss(5);
-  PlaceFit fit;
-  ErrorFit errors;
-  errors.sigma = sigma;
-  const std::vector<Eigen::Vector2d> targets(40, Eigen::Vector2d(1.0, 2.0));
-  for (std::size_t target = 0; target < targets.size(); ++target) {
-    const Eigen::Vector2d offset(gauss(displaced), gauss(displaced));
-    std::vector<KnownLook> looks;
-    std::vector<Opportunity> labelled;
+  PlaceLooks robot;
+  robot.errors.sigma = robot.labelling.sigma = sigma;
+  robot.labelling.field_of_view = {-geometry::kPi, geometry::kPi};
+  std::vector<Eigen::Vector2d> targets;
+  for (int target = 0; target < 40; ++target) {
+    targets.emplace_back(100.0 * target, 2.0);
+    const Eigen::Vector2d seen =
+        targets.back() + Eigen::Vector2d(gauss(displaced), gauss(displaced));
     for (int i = 0; i < 200; ++i) {
       KnownLook look;
       const double angle = 0.1 * i;
+      const double range = i % 2 == 0 ? 1.0 : 2.0;
       look.T_map_sensor =
-          Pose2(targets[target] + 2.0 * Eigen::Vector2d(std::cos(angle), std::sin(angle)), angle);
-      const auto bearing = [&](const Eigen::Vector2d& place) {
-        return polarOf(look.T_map_sensor.inverse() * place).bearing;
-      };
-      const double error =
-          geometry::wrapAngle(bearing(targets[target] + offset) - bearing(targets[target])) +
-          gauss(sigma);
-      labelled.push_back({looks.size(), target, {2.0, 0.0}, true, error});
-      looks.push_back(look);
+          Pose2(targets.back() + range * Eigen::Vector2d(std::cos(angle), std::sin(angle)), angle);
+      look.bearings = {polarOf(look.T_map_sensor.inverse() * seen).bearing + gauss(sigma)};
+      robot.looks.push_back(look);
     }
-    fit.add(looks, labelled, targets, errors, 1.0);
   }
+  PlaceFit fit(targets);
+  fit.add(robot);
   return fit.sigma();
 }
 
@@ -45,9 +41,14 @@ TEST(PlaceFit, FindsHowFarTargetsAreDisplaced) {
   EXPECT_NEAR(placeSigmaOf(0.03, 0.02), 0.03, 0.006);
 }
 
+// Most of the bearings from nearby lie beyond the gate about the known place.
+TEST(PlaceFit, FindsTargetsThatAreFartherOffThanTheGate) {
+  EXPECT_NEAR(placeSigmaOf(0.03, 0.008), 0.03, 0.006);
+}
+
 TEST(PlaceFit, TakesNoiseForNoDisplacement) {
   EXPECT_LT(placeSigmaOf(0.0, 0.02), 0.002);
-  EXPECT_EQ(PlaceFit().sigma(), 0.0);
+  EXPECT_EQ(PlaceFit({{1.0, 2.0}}).sigma(), 0.0);
 }
 
 }  // namespace

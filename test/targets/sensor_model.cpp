@@ -97,6 +97,10 @@ TEST(SensorModel, WallsHideTargets) {
   const SensorModel by_grid({}, std::make_shared<GridSight>(grid));
   EXPECT_EQ(by_grid.detection(Eigen::Vector2d(3.0, 0.0), {}), 0.0);
   EXPECT_GT(by_grid.detection(Eigen::Vector2d(1.5, 0.0), {}), 0.0);
+  // The same cells, turned by a quarter about the map's origin.
+  const GridSight turned(grid, {0.0, 0.0, 0.5 * geometry::kPi});
+  EXPECT_FALSE(turned.isClear({0.0, 0.0}, {0.0, 3.0}));
+  EXPECT_TRUE(turned.isClear({0.0, 0.0}, {3.0, 0.0}));
 }
 
 TEST(SensorModelConfig, SurvivesBeingWrittenAndRead) {

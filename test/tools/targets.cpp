@@ -89,6 +89,24 @@ TEST(Targets, FromDataToScore) {
   EXPECT_LT(ospa, 0.5) << scored.output;
 }
 
+TEST(Targets, PartOfASetIsABagOfItsOwn) {
+  const TemporaryFolder folder;
+  writeFolder(folder);
+  const auto looksOf = [&](const std::string& options) {
+    const auto run =
+        runProgram("mrclam_to_bag", folder.path("") + " " + folder.path("part.bag ") + options);
+    EXPECT_EQ(run.status, 0) << run.output;
+    return std::stoi(run.output.substr(run.output.find("robots, ") + 8));
+  };
+  const int all = looksOf("");
+  const int first = looksOf("--to 60");
+  EXPECT_NEAR(first, 0.5 * all, 0.05 * all);
+  EXPECT_NEAR(first + looksOf("--from 60"), all, 3.0);
+  const auto none = runProgram("mrclam_to_bag", folder.path("") + " none.bag --from 9999");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.output, HasSubstr("the set has nothing in that time"));
+}
+
 TEST(Targets, SayWhatIsMissing) {
   const TemporaryFolder folder;
   writeFolder(folder);

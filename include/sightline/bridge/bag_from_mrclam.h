@@ -15,6 +15,8 @@ struct MrclamBagOptions {
   double lag = 0.0;     ///< stamps of looks come so late [s]
   double bias = 0.0;    ///< measured less true bearing, of all robots [rad]
   double period = 0.0;  ///< between two images [s]; 0: found in the log; negative: leave them out
+  double from = 0.0;    ///< time after the beginning of the set at which the bag begins [s]
+  double to = 1e6;      ///< and ends [s]
   double position_sigma = 0.0;    ///< error of the poses, in x and in y [m]
   double heading_sigma = 0.0;     ///< [rad]
   double pose_correlation = 0.0;  ///< time constant of these errors [s]; 0: each on its own

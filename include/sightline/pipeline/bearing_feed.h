@@ -36,8 +36,7 @@ class BearingFeed {
   struct Ready {
     std::string robot;
     targets::BearingSet set;
-    std::string fault;       ///< empty, or why it has no pose
-    double turn_rate = 0.0;  ///< of the sensor just before the look [rad/s]; 0 where unknown
+    std::string fault;  ///< empty, or why it has no pose
   };
   /// Looks that have got their pose, in the order of their stamps, and those that have waited too
   /// long, at a time [ns].

@@ -22,6 +22,7 @@ struct BearingSet {
   std::size_t robot = 0;                  ///< counts from 0
   std::int64_t stamp = 0;                 ///< [ns]
   geometry::UncertainPose2 T_map_sensor;  ///< its error is common to all bearings of the look
+  double turn_rate = 0.0;                 ///< of the sensor just before; 0 where unknown [rad/s]
   std::vector<double> bearings;
   FieldOfView field_of_view{-geometry::kPi, geometry::kPi};
   double sigma = 0.0;                 ///< of a bearing as the detector states it; 0: unknown [rad]

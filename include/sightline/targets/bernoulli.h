@@ -11,12 +11,24 @@
 
 namespace sightline::targets {
 
+/// What a Gaussian of a mixture stands for.
+enum class Mode {
+  kStanding,  ///< a target that stands still
+  kMoving,    ///< a target that walks at random
+  kGlint,     ///< no target: a surface that shines towards one side, such as a sheet of metal
+  kFaint,     ///< no target: something that is seldom seen, from any side, such as a metal pole
+};
+inline bool isTarget(Mode mode) {
+  return mode == Mode::kStanding || mode == Mode::kMoving;
+}
+
 /// A Gaussian of a mixture.
 struct Component {
   double weight = 1.0;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();            ///< in the map [m]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [m²]
-  bool is_moving = false;  ///< whether it walks at random instead of standing still
+  Mode mode = Mode::kStanding;
+  double facing = 0.0;  ///< of a glint: direction in the map from it to who saw it first [rad]
 };
 using Mixture = std::vector<Component>;
 
@@ -26,9 +38,9 @@ struct Visibility {
   std::int64_t stamp = 0;  ///< [ns]
 };
 
-/// A target that may exist.
+/// A target, or something that is taken for one, that may exist.
 struct Bernoulli {
-  double existence = 0.0;
+  double existence = 0.0;              ///< of any of both
   Mixture mixture;                     ///< weights sum to one
   std::int64_t stamp = 0;              ///< to which it has been predicted [ns]
   std::uint32_t label = 0;             ///< 0: never reported yet
@@ -60,11 +72,17 @@ Component updated(const Component& component, const BearingPrediction& predictio
                   double innovation);
 
 /// Merges components that lie within `distance` (Mahalanobis, squared) of a heavier one in the same
-/// mode, drops those lighter than `least`, keeps the `most` heaviest, and makes the weights sum to
-/// one.
+/// mode, drops those lighter than `least`, keeps the `most` heaviest of targets and as many of
+/// other things, and makes the weights sum to one.
 void reduce(Mixture& mixture, double distance, double least, std::size_t most);
 
 /// Mean and covariance of a mixture.
 UncertainPoint momentsOf(const Mixture& mixture);
+/// The mixture as it is if it is of a target: weights sum to one; empty where it can be none.
+Mixture ofTarget(const Mixture& mixture);
+/// Share of a mixture that stands for something [0, 1].
+double shareOf(const Mixture& mixture, Mode mode);
+/// Probability that there is a target.
+double targetExistence(const Bernoulli& bernoulli);
 
 }  // namespace sightline::targets

@@ -29,7 +29,9 @@ struct BernoulliFilterConfig {
 /// track-oriented marginal MeMBer/Poisson), by belief propagation. Each bearing starts a target
 /// that is a mixture of Gaussians along it (range-parametrised EKF, Peach 1995); misses of one
 /// robot in a row count less, as the sensor model's VisibilityConfig says; the error of a look's
-/// pose is part of every innovation.
+/// pose is part of every innovation. What a bearing starts may be a glint or a faint thing as well,
+/// if the model has them: looks from one side cannot make a target of the one, nor few detections
+/// among many misses of the other.
 class BernoulliFilter : public TargetFilter {
  public:
   explicit BernoulliFilter(const BernoulliFilterConfig& config = {});
@@ -44,7 +46,7 @@ class BernoulliFilter : public TargetFilter {
  private:
   void predict(Bernoulli& bernoulli) const;
   std::vector<Candidate> candidatesOf(const Look& look);
-  void add(Birth birth, double existence, const Look& look);
+  void add(const Birth& birth, double scale, double clutter, const Look& look);
   void prune();
   bool isReported(const Bernoulli& bernoulli) const;
   void label();

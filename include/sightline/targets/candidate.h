@@ -42,9 +42,14 @@ class Candidate {
 bool mayBeSeen(const Bernoulli& bernoulli, const Look& look);
 /// Notes that the look's robot can see the target now.
 void noteVisible(Bernoulli& bernoulli, const Look& look);
-/// The mixture with a share of it moving.
-Mixture withModes(Mixture mixture, double moving_share);
-double movingShare(const Mixture& mixture);
+/// Shares of modes in what a bearing starts; the rest is a target that stands.
+struct ModeShares {
+  double moving = 0.0;
+  double glint = 0.0;
+  double faint = 0.0;
+};
+/// The mixture in all its modes; glints face where the look was taken from.
+Mixture withModes(const Mixture& mixture, const ModeShares& shares, const Look& look);
 /// Adds a target's density to the cells of a grid [1/m²].
 void addDensity(const Bernoulli& bernoulli, IntensityGrid& grid);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -66,11 +67,13 @@ struct Characterization {
 };
 
 /// Characterises sensors by looks at known targets; `names` are those of the robots by number.
-/// Throws config::Error where there are no targets, or too few looks for anything.
+/// Targets that `sight` hides are not missed; none: nothing hides a target. Throws config::Error
+/// where there are no targets, or too few looks for anything.
 Characterization characterize(const std::vector<KnownLook>& looks,
                               const std::vector<std::string>& names,
                               const std::vector<Eigen::Vector2d>& targets_map,
-                              const CharacterizationConfig& config);
+                              const CharacterizationConfig& config,
+                              std::shared_ptr<const LineOfSight> sight = nullptr);
 
 /// Draws the table's probability of each prediction by a robot's character.
 std::vector<Prediction> predictionsOf(const std::vector<KnownLook>& looks,

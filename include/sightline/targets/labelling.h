@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,8 @@ struct LabellingConfig {
   double bias = 0.0;                       ///< measured less true bearing [rad]
   double lag = 0.0;  ///< time that looks are stamped late, made good by the turn rate [s]
   LabellingMethod method = LabellingMethod::kOptimal;
+  /// Tells targets that a wall hides, which are no misses; none: nothing hides a target.
+  std::shared_ptr<const LineOfSight> sight = nullptr;
 };
 
 /// Gives each target in view one measurement at most, and each measurement one target at most.

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include <Eigen/Core>
 
+#include "sightline/geometry/pose2.h"
 #include "sightline/world/occupancy.h"
 #include "sightline/world/world.h"
 
@@ -28,15 +32,22 @@ class WorldSight : public LineOfSight {
   double tolerance_;
 };
 
-/// Sight over the cells of a grid: occupied ones stop it, up to `tolerance` [m] before the far end.
+/// Sight in the world of a file at a height [m]; none where the path is empty. Throws
+/// config::Error.
+std::shared_ptr<const LineOfSight> worldSight(const std::string& path, double height);
+
+/// Sight over the cells of a grid, which lies at `T_map_grid`: occupied ones stop it, up to
+/// `tolerance` [m] before the far end.
 class GridSight : public LineOfSight {
  public:
-  explicit GridSight(world::Occupancy grid, double tolerance = 0.1)
-      : grid_(std::move(grid)), tolerance_(tolerance) {}
+  explicit GridSight(world::Occupancy grid, const geometry::Pose2& T_map_grid = {},
+                     double tolerance = 0.1)
+      : grid_(std::move(grid)), T_grid_map_(T_map_grid.inverse()), tolerance_(tolerance) {}
   bool isClear(const Eigen::Vector2d& from_map, const Eigen::Vector2d& to_map) const override;
 
  private:
   world::Occupancy grid_;
+  geometry::Pose2 T_grid_map_;
   double tolerance_;
 };
 

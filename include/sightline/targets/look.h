@@ -20,7 +20,7 @@ class Look {
   const FieldOfView& fieldOfView() const { return field_of_view_; }
   double sigma() const { return sigma_; }
   std::size_t size() const { return bearings_.size(); }
-  /// Bearing without the sensor's bias [rad].
+  /// Bearing without the sensor's bias and what its lag makes of the robot's turning [rad].
   double bearing(std::size_t measurement) const { return bearings_[measurement]; }
   /// Density of clutter at a measurement [1/rad].
   double clutter(std::size_t measurement) const { return clutter_[measurement]; }
@@ -36,6 +36,8 @@ class Look {
   double detection(const Polar& place) const;
   /// Mean over a component's spread, with line of sight.
   double detection(const Component& component, const Polar& mean) const;
+  /// Share of a component's spread that no wall hides [0, 1].
+  double inSight(const Component& component) const;
   /// Density [1/rad] of a measurement from a predicted component.
   double likelihood(std::size_t measurement, const BearingPrediction& prediction) const;
 

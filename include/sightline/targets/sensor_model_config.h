@@ -56,6 +56,7 @@ struct VisibilityConfig {
 struct BearingConfig {
   double sigma = geometry::radians(2.25);  ///< standard deviation [rad]
   double bias = 0.0;                       ///< measured less true bearing [rad]
+  double lag = 0.0;  ///< time that looks are stamped late, by which they err as the robot turns [s]
   double tail = 1.0;  ///< factor on σ in filters, for errors with heavier tails than a Gaussian
   /// Variance of the mean of many bearings of one target over that of independent ones: errors that
   /// last over looks do not average out.
@@ -71,6 +72,15 @@ struct ClutterConfig {
   double mean = 0.5319;                     ///< μ, clutter measurements a look
   double uniform_share = 0.725;             ///< p_u
   double peak_width = 0.2 * geometry::kPi;  ///< θ_c, of the peaks at ±π/2 [rad]
+  /// Of the clutter that comes of surfaces that shine towards one side, again and again from one
+  /// place; the rest is of looks apart.
+  double glint_share = 0.0;
+  double glint_width = geometry::radians(2.5);  ///< standard deviation of that side [rad]
+  /// Of the clutter that comes of things seen again and again from all sides, but seldom.
+  double faint_share = 0.0;
+  /// Probability that one is seen over that of a target, at most: near by, where both are most
+  /// alike.
+  double faint_detection = 0.3;
 
   void visit(config::FieldVisitor& visitor);
 };

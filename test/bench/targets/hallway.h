@@ -75,6 +75,7 @@ class HallwayRun {
 
  private:
   static constexpr double kHeight = 0.4;
+  static constexpr double kBack = 5.0;  // time for a way back [s]
   static std::string path(const std::string& name) {
     return std::string(SIGHTLINE_SOURCE_DIR) + "/" + name;
   }
@@ -92,6 +93,7 @@ class HallwayRun {
     profile.beams = 271;
     carrier.addScanner(profile, mounting);
     goals_.push_back(start.translation());
+    starts_.push_back(start.translation());
     deadlines_.push_back(0);
     detectors_.emplace_back();
   }
@@ -116,21 +118,32 @@ class HallwayRun {
   void steer() {
     for (std::size_t i = 0; i < simulation_.robots(); ++i) {
       const geometry::Pose2 pose = simulation_.robot(i).T_map_base();
+      // Nothing stops a simulated robot at a wall: one that has turned through it goes back.
+      if (!sight_->isClear(starts_[i], pose.translation())) {
+        send(i, starts_[i], kBack);
+        continue;
+      }
       const bool has_arrived = (goals_[i] - pose.translation()).norm() < 0.15;
       if (!has_arrived && simulation_.time() < deadlines_[i]) continue;
       const auto actions = actions_.from(pose);
       if (actions.empty()) continue;
       std::uniform_int_distribution<std::size_t> any(0, actions.size() - 1);
       const targets::SearchAction& action = actions[any(random_)];
-      goals_[i] = action.poses.back().translation();
-      deadlines_[i] = simulation_.time() + std::llround(2e9 * (action.duration + 5.0));
-      simulation::Path way;
-      way.speed = 0.5;
-      way.tolerance = 0.1;
-      way.turn_rate = 1.5;
-      way.waypoints_map = {goals_[i]};
-      simulation_.carrier(i).follow(way);
+      starts_[i] = pose.translation();
+      send(i, action.poses.back().translation(), action.duration);
     }
+  }
+
+  void send(std::size_t robot, const Eigen::Vector2d& goal, double duration) {
+    if (goals_[robot] == goal && simulation_.time() < deadlines_[robot]) return;
+    goals_[robot] = goal;
+    deadlines_[robot] = simulation_.time() + std::llround(2e9 * (duration + 5.0));
+    simulation::Path way;
+    way.speed = 0.5;
+    way.tolerance = 0.1;
+    way.turn_rate = 1.5;
+    way.waypoints_map = {goal};
+    simulation_.carrier(robot).follow(way);
   }
 
   // As odometry tells it on a robot.
@@ -189,6 +202,7 @@ class HallwayRun {
   simulation::Simulation simulation_;
   std::vector<targets::BearingDetector> detectors_;
   std::vector<Eigen::Vector2d> goals_;
+  std::vector<Eigen::Vector2d> starts_;  // of the present ways
   std::vector<std::int64_t> deadlines_;  // at which another way is taken all the same
   std::mt19937_64 random_;
 };
