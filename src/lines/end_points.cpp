@@ -36,6 +36,10 @@ double varianceAt(const LineEstimate& line, double position) {
          info.determinant();
 }
 
+double directionVariance(const LineEstimate& line) {
+  return line.information.rho_rho / line.information.determinant();
+}
+
 double across(const LineEstimate& a, const LineEstimate& b) {
   return a.normal_x * b.normal_y - a.normal_y * b.normal_x;
 }
@@ -79,7 +83,9 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
   const double va = varianceAt(a, on_a);
   const double vb = varianceAt(b, on_b);
   point.position = on_a;
-  point.variance = (vb + cosine * cosine * va) / (sine * sine);
+  // The sine itself is uncertain: the mean of 1/sine² to second order.
+  const double turn = (directionVariance(a) + directionVariance(b)) / (sine * sine);
+  point.variance = (vb + cosine * cosine * va) / (sine * sine) * (1.0 + 3.0 * turn);
   point.kind = EndKind::kCorner;
 
   const BeamResiduals of_last = residualsOf(beams_, last, a);

@@ -31,6 +31,20 @@ double bendBetween(const Span& before, const Span& after) {
   return a.normal_x * b.normal_y - a.normal_y * b.normal_x;
 }
 
+// Squared distance between two lines along the beam that they meet at, in standard deviations of
+// one return.
+double stepSquared(const BeamArray& beams, const Span& before, const Span& after) {
+  const std::size_t at = after.first;
+  const LineEstimate a = before.moments.line();
+  const LineEstimate b = after.moments.line();
+  const Eigen::Vector2d direction = beams.direction(at);
+  const auto range = [&](const LineEstimate& line) {
+    return line.rho / (line.normal_x * direction.x() + line.normal_y * direction.y());
+  };
+  const double step = range(a) - range(b);
+  return step * step / static_cast<double>(beams.slantVariances()[at]);
+}
+
 }  // namespace
 
 Span joined(const Span& before, const Span& after) {
@@ -146,7 +160,9 @@ bool SpanBreaks::join(Span& before, const Span& after) const {
   if (bend > kSpan.most_bend) return false;
   const Span whole = joined(before, after);
   const double parts = costOf({before.end, after.first_atom, 0.0, before.moments, after.moments});
-  if (!isOneWall(whole, parts, bend)) return false;
+  // A step that one return tells is none of unevenness.
+  const bool has_step = stepSquared(*beams_, before, after) > stray_price_;
+  if (!isOneWall(whole, parts, has_step ? kSpan.most_bend : bend)) return false;
   before = whole;
   return true;
 }
