@@ -44,7 +44,10 @@ LiveFeed::LiveFeed(ros::NodeHandle node, const pipeline::InputConfig& config,
   for (const auto& topic : config.echo_scans) {
     addScanner<sensor_msgs::MultiEchoLaserScan>(node, topic);
   }
-  timer_ = node.createSteadyTimer(kRound, [this](const ros::SteadyTimerEvent&) { deliver(); });
+  constexpr bool kOnce = false;
+  constexpr bool kStarts = false;
+  timer_ = node.createSteadyTimer(
+      kRound, [this](const ros::SteadyTimerEvent&) { deliver(); }, kOnce, kStarts);
 }
 
 template <class Message>
@@ -114,8 +117,10 @@ std::string LiveFeed::awaited() const {
   return "";
 }
 
+// The timer runs only while scans wait: its rounds would cost a node more than its work.
 void LiveFeed::deliver() {
   while (auto result = feed_.next(steadyNow())) deliver(*result);
+  feed_.isWaiting() ? timer_.start() : timer_.stop();
 }
 
 void LiveFeed::deliver(pipeline::FeedResult& result) {

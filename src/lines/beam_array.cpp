@@ -1,20 +1,31 @@
 #include "sightline/lines/beam_array.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sightline/lines/packet.h"
 
 namespace sightline::lines {
 
+namespace {
+
+// Chosen: returns that the slant of a surface is told by, and the largest slant that is believed.
+constexpr std::size_t kChord = 16;
+constexpr float kMostSlant = 10.0F;
+
+}  // namespace
+
 void BeamArray::assign(const scan::Scan& scan, std::size_t first_beam) {
   const bool circle = scan.geometry()->isFullCircle();
   has_jitter = scan.motion_noise.jitter > 0.0;
+  has_across = has_jitter || scan.angular_variance > 0.0 || scan.transverse_variance > 0.0;
   reserve((circle ? 2 : 1) * scan.beams());
   takeDirections(scan.geometry());
   size = 0;
   appendValid(scan, circle ? first_beam : 0, scan.beams(), 0);
   if (circle) appendValid(scan, 0, first_beam, scan.beams());
   revolution = size;
+  if (has_across) addSlant();
   if (circle) repeatRevolution(scan.beams());
   pad();
 }
@@ -26,6 +37,7 @@ void BeamArray::reserve(std::size_t returns) {
     array->resize(length);
   }
   cross_covariance.resize(length);
+  slant_variance_.resize(length);
   beam.resize(length);
 }
 
@@ -124,6 +136,27 @@ void BeamArray::addJitter(const scan::Scan& scan, std::size_t first, std::size_t
   }
 }
 
+// By the chord to one side or the other, whichever slants less: a step is no surface.
+void BeamArray::addSlant() {
+  for (std::size_t i = 0; i < size; ++i) {
+    const float before = slantAt(i, i - std::min(i, kChord));
+    const float after = slantAt(i, std::min(i + kChord, size - 1));
+    const float slant = std::abs(before) < std::abs(after) ? before : after;
+    slant_variance_[i] = range_variance[i] + slant * slant * across_variance[i];
+    if (has_jitter) slant_variance_[i] -= 2.0F * slant * cross_covariance[i];
+  }
+}
+
+// Tangent of the incidence on the surface from one return to another.
+float BeamArray::slantAt(std::size_t i, std::size_t k) const {
+  const float dx = x[k] - x[i];
+  const float dy = y[k] - y[i];
+  const float along = direction_x[i] * dx + direction_y[i] * dy;
+  const float across = direction_x[i] * dy - direction_y[i] * dx;
+  if (std::abs(along) >= kMostSlant * std::abs(across)) return kMostSlant;
+  return along / across;
+}
+
 void BeamArray::repeatRevolution(std::size_t beams) {
   const auto repeat = [this](std::vector<float>& array) {
     std::copy_n(array.begin(), revolution, array.begin() + static_cast<std::ptrdiff_t>(revolution));
@@ -132,6 +165,7 @@ void BeamArray::repeatRevolution(std::size_t beams) {
     repeat(*array);
   }
   if (has_jitter) repeat(cross_covariance);
+  if (has_across) repeat(slant_variance_);
   for (std::size_t i = 0; i < revolution; ++i) {
     beam[revolution + i] = beam[i] + static_cast<std::uint32_t>(beams);
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "sightline/geometry/statistics.h"
 #include "sightline/lines/beam_residuals.h"
 
 namespace sightline::lines {
@@ -13,8 +12,6 @@ struct BreakPointsConstants {
   // Chosen: how far a break may move at once, and what a piece keeps of itself [returns].
   std::size_t reach = 24;
   std::size_t keep = 3;
-  // Counted: a line of its own has a distance, a direction and a break.
-  double line_freedom = 3.0;
 };
 constexpr BreakPointsConstants kBreaks{};
 
@@ -26,10 +23,7 @@ Packet costsOf(const BeamArray& beams, std::size_t first, const LineEstimate& li
 }  // namespace
 
 BreakPoints::BreakPoints(const BeamArray& beams, const LineExtractorConfig& config)
-    : beams_(beams),
-      gap_(config),
-      gate_squared_(static_cast<float>(config.gate * config.gate)),
-      fragment_limit_(geometry::chiSquareLimit(config.gate, kBreaks.line_freedom)) {}
+    : beams_(beams), gap_(config), gate_squared_(static_cast<float>(config.gate * config.gate)) {}
 
 bool BreakPoints::isOn(const LineEstimate& line, std::size_t i) const {
   return isWithin(beams_, i, line, gate_squared_);
@@ -41,14 +35,19 @@ void BreakPoints::extendForward(Piece& piece, std::size_t limit) const {
 
 void BreakPoints::extendForward(Piece& piece, std::size_t from, std::size_t limit) const {
   double position = positionOn(beams_, piece.end - 1, piece.line);
+  bool is_hidden = true;  // by what is in front of the line, from its last return on
   for (std::size_t i = from; i < limit; ++i) {
-    const double length = positionOn(beams_, i, piece.line) - position;
+    const BeamResiduals of = residualsOf(beams_, i, piece.line);
+    const double length = static_cast<double>(of.position[0]) - position;
     if (!gap_.mayBridge(beams_, piece.line, piece.end - 1, i, length)) return;
-    const bool adjoins = i == piece.end;
-    if (!isOn(piece.line, i)) continue;
-    if (!adjoins && (i + 1 >= limit || !isOn(piece.line, i + 1))) continue;
+    if (of.squared()[0] > gate_squared_) {
+      is_hidden = is_hidden && of.distance[0] < 0.0F;
+      continue;
+    }
+    if (!is_hidden && (i + 1 >= limit || !isOn(piece.line, i + 1))) continue;
     position += length;
     piece.end = i + 1;
+    is_hidden = true;
   }
 }
 
@@ -58,14 +57,19 @@ void BreakPoints::extendBackward(Piece& piece, std::size_t limit) const {
 
 void BreakPoints::extendBackward(Piece& piece, std::size_t from, std::size_t limit) const {
   double position = positionOn(beams_, piece.first, piece.line);
+  bool is_hidden = true;
   for (std::size_t i = from; i-- > limit;) {
-    const double length = positionOn(beams_, i, piece.line) - position;
+    const BeamResiduals of = residualsOf(beams_, i, piece.line);
+    const double length = static_cast<double>(of.position[0]) - position;
     if (!gap_.mayBridge(beams_, piece.line, i, piece.first, length)) return;
-    const bool adjoins = i + 1 == piece.first;
-    if (!isOn(piece.line, i)) continue;
-    if (!adjoins && (i <= limit || !isOn(piece.line, i - 1))) continue;
+    if (of.squared()[0] > gate_squared_) {
+      is_hidden = is_hidden && of.distance[0] < 0.0F;
+      continue;
+    }
+    if (!is_hidden && (i <= limit || !isOn(piece.line, i - 1))) continue;
     position += length;
     piece.first = i;
+    is_hidden = true;
   }
 }
 
@@ -117,45 +121,6 @@ bool BreakPoints::adjoin(const Piece& before, const Piece& after, const LineEsti
   const std::size_t from = before.end - 1;
   return gap_.mayBridge(beams_, line, from, after.first,
                         positionOn(beams_, after.first, line) - positionOn(beams_, from, line));
-}
-
-// Whether each return, by itself, is close enough to one line or the other. Mostly the first few
-// tell.
-SIGHTLINE_VECTOR_CLONES
-bool BreakPoints::mayExplain(const LineEstimate& before, const LineEstimate& after,
-                             const Piece& piece, double limit) const {
-  double cost = 0.0;
-  for (std::size_t i = piece.first; i < piece.end; i += kLanes) {
-    const Packet closer = smaller(costsOf(beams_, i, before, gate_squared_),
-                                  costsOf(beams_, i, after, gate_squared_));
-    cost += sum(firstLanes(piece.end - i) * closer);
-    if (cost > limit) return false;
-  }
-  return true;
-}
-
-bool BreakPoints::shareOut(const Piece& piece, Piece* before, Piece* after) const {
-  if (before && !adjoin(*before, piece, before->line)) before = nullptr;
-  if (after && !adjoin(piece, *after, after->line)) after = nullptr;
-  if (!before && !after) return false;
-  const double stray = static_cast<double>(piece.size()) - piece.beams;
-  const double limit =
-      piece.chi_square + stray * static_cast<double>(gate_squared_) + fragment_limit_;
-  const LineEstimate& first_line = before ? before->line : after->line;
-  const LineEstimate& second_line = after ? after->line : before->line;
-  if (!mayExplain(first_line, second_line, piece, limit)) return false;
-  Break split = bestBreak(first_line, second_line, piece.first, piece.end);
-  if (split.cost > limit) return false;
-  if (!after) split.at = piece.end;
-  if (before && split.at > piece.first) {
-    before->end = split.at;
-    trim(*before);
-  }
-  if (after && split.at < piece.end) {
-    after->first = split.at;
-    trim(*after);
-  }
-  return true;
 }
 
 }  // namespace sightline::lines

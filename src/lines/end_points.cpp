@@ -36,6 +36,10 @@ double varianceAt(const LineEstimate& line, double position) {
          info.determinant();
 }
 
+double directionVariance(const LineEstimate& line) {
+  return line.information.rho_rho / line.information.determinant();
+}
+
 double across(const LineEstimate& a, const LineEstimate& b) {
   return a.normal_x * b.normal_y - a.normal_y * b.normal_x;
 }
@@ -79,7 +83,9 @@ bool EndPoints::corner(const Piece& piece, const Piece& neighbour, std::size_t l
   const double va = varianceAt(a, on_a);
   const double vb = varianceAt(b, on_b);
   point.position = on_a;
-  point.variance = (vb + cosine * cosine * va) / (sine * sine);
+  // The sine itself is uncertain: the mean of 1/sine² to second order.
+  const double turn = (directionVariance(a) + directionVariance(b)) / (sine * sine);
+  point.variance = (vb + cosine * cosine * va) / (sine * sine) * (1.0 + 3.0 * turn);
   point.kind = EndKind::kCorner;
 
   const BeamResiduals of_last = residualsOf(beams_, last, a);
@@ -142,18 +148,22 @@ EndPoints::Meeting EndPoints::meet(const LineEstimate& line, std::size_t beam) c
   const double range = (line.rho - normal.dot(origin)) / facing;
   const double position = along.dot(origin + range * direction);
   const double slope = along.dot(direction) / facing;
-  const double jitter = jitterAt(origin + range * direction, along - slope * normal);
+  const double jitter = jitterAt(origin + range * direction, origin, along - slope * normal);
   return {position, range, slope * slope * varianceAt(line, position), jitter, range > 0.0};
 }
 
-// A beam turned about the axis of the jitter meets the line elsewhere: `slide` is what the position
-// gains by a displacement of the beam.
-double EndPoints::jitterAt(const Eigen::Vector2d& point, const Eigen::Vector2d& slide) const {
-  const scan::MotionNoise& noise = scan_.motion_noise;
-  if (noise.jitter == 0.0) return 0.0;
-  const Eigen::Vector2d arm = point - noise.jitter_axis;
-  const double moved = slide.y() * arm.x() - slide.x() * arm.y();
-  return noise.jitter * moved * moved;
+// A beam that points elsewhere than it says, or is turned about the axis of the jitter, meets the
+// line elsewhere: `slide` is what the position gains by a displacement of the beam.
+double EndPoints::jitterAt(const Eigen::Vector2d& point, const Eigen::Vector2d& origin,
+                           const Eigen::Vector2d& slide) const {
+  const auto movedAbout = [&](const Eigen::Vector2d& axis) {
+    const Eigen::Vector2d arm = point - axis;
+    return slide.y() * arm.x() - slide.x() * arm.y();
+  };
+  const double by_beam = movedAbout(origin);
+  const double by_sensor = movedAbout(scan_.motion_noise.jitter_axis);
+  return scan_.angular_variance * by_beam * by_beam +
+         scan_.motion_noise.jitter * by_sensor * by_sensor;
 }
 
 }  // namespace sightline::lines

@@ -5,9 +5,7 @@
 
 #include "sightline/lines/break_points.h"
 #include "sightline/lines/end_points.h"
-#include "sightline/lines/line_filter.h"
 #include "sightline/lines/merging.h"
-#include "sightline/lines/splitting.h"
 
 namespace sightline::lines {
 
@@ -15,8 +13,6 @@ namespace {
 
 // Pieces that something small in front of a wall falls into, at most.
 constexpr std::size_t kMostHiding = 4;
-// A break moves its lines, and these the breaks at their other ends.
-constexpr int kSettlingRounds = 2;
 
 Piece shifted(const Piece& piece, std::size_t revolution) {
   Piece result = piece;
@@ -40,18 +36,16 @@ void inOrderOfBeams(std::vector<Feature>& features) {
 }  // namespace
 
 LineExtractor::LineExtractor(const LineExtractorConfig& config)
-    : config_(config), arc_finder_(config) {
+    : config_(config), segmentation_(config), arc_finder_(config) {
   config::validate(config_);
 }
 
 const std::vector<geometry::LineSegment>& LineExtractor::extract(const scan::Scan& scan) {
   reserve(scan.beams());
   findPieces(scan);
-  dropFragments();
   placeBreaks();
   placeBreakAtSeam();
   refinePieces();
-  splitPieces();
   extendBehindSmallThings();
   mergePieces();
   dropHidden();
@@ -65,8 +59,8 @@ void LineExtractor::reserve(std::size_t beams) {
   pieces_.clear();
   segments_.clear();
   arcs_.clear();
-  pieces_.reserve(beams / LineFilter::kFewestToStart + 1);
-  parts_.reserve(beams / LineFilter::kFewestToStart + 1);
+  pieces_.reserve(beams / Segmentation::kFewest + 1);
+  segmentation_.reserve(beams);
   segments_.reserve(beams / static_cast<std::size_t>(config_.min_beams) + 1);
   arcs_.reserve(beams / static_cast<std::size_t>(config_.min_arc_beams) + 1);
 }
@@ -76,25 +70,12 @@ void LineExtractor::findPieces(const scan::Scan& scan) {
   sweep_noise_.assign(scan, beams_);
   if (beams_.size > beams_.revolution) {
     // Begin the revolution where a piece ends, so that none is cut by the seam.
-    const std::size_t end = findPiecesIn(0, beams_.revolution, 1);
+    segmentation_.divide(beams_, 0, beams_.revolution, pieces_);
+    const std::size_t end = pieces_.empty() ? 0 : pieces_.front().end;
     pieces_.clear();
     if (end < beams_.revolution) beams_.assign(scan, beams_.beam[end] % scan.beams());
   }
-  findPiecesIn(0, beams_.revolution, beams_.revolution);
-}
-
-std::size_t LineExtractor::findPiecesIn(std::size_t first, std::size_t end, std::size_t most) {
-  LineFilter filter(beams_, sweep_noise_, config_);
-  std::size_t next = first;
-  while (next < end && pieces_.size() < most) {
-    if (!filter.start(next, end)) {
-      ++next;
-      continue;
-    }
-    pieces_.push_back(filter.follow(end));
-    next = pieces_.back().end;
-  }
-  return next;
+  segmentation_.divide(beams_, 0, beams_.revolution, pieces_);
 }
 
 void LineExtractor::refinePieces() {
@@ -103,47 +84,16 @@ void LineExtractor::refinePieces() {
   pieces_.erase(std::remove_if(pieces_.begin(), pieces_.end(), undetermined), pieces_.end());
 }
 
-void LineExtractor::splitPieces() {
-  Splitting splitting(beams_, config_);
-  parts_.clear();
-  bool is_split = false;
-  for (const Piece& piece : pieces_) is_split |= splitting.split(piece, parts_);
-  pieces_.swap(parts_);
-  bool is_moved = is_split;
-  bool moves = true;
-  for (int round = 0; moves && round < kSettlingRounds; ++round) {
-    moves = false;
-    for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
-      moves |= splitting.settle(pieces_[i], pieces_[i + 1]);
-    }
-    is_moved |= moves;
-  }
-  if (!is_moved) return;
-  placeBreaks();
-  refinePieces();
-}
-
-void LineExtractor::dropFragments() {
-  const BreakPoints breaks(beams_, config_);
-  std::size_t kept = 0;  // pieces_[0, kept) are settled
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece piece = pieces_[i];
-    Piece* before = kept > 0 ? &pieces_[kept - 1] : nullptr;
-    Piece* after = i + 1 < pieces_.size() ? &pieces_[i + 1] : nullptr;
-    if (before && before->beams < piece.beams) before = nullptr;
-    if (after && after->beams < piece.beams) after = nullptr;
-    if (!breaks.shareOut(piece, before, after)) pieces_[kept++] = piece;
-  }
-  pieces_.resize(kept);
-}
-
 void LineExtractor::placeBreaks() {
   const BreakPoints breaks(beams_, config_);
   for (Piece& piece : pieces_) breaks.trim(piece);
+  if (pieces_.empty()) return;
+  breaks.extendBackward(pieces_.front(), 0);
+  breaks.extendForward(pieces_.back(), beams_.revolution);
   for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
     breaks.extendForward(pieces_[i], pieces_[i + 1].first);
     breaks.extendBackward(pieces_[i + 1], pieces_[i].end);
-    breaks.separate(pieces_[i], pieces_[i + 1]);
+    if (pieces_[i].end < pieces_[i + 1].first) breaks.separate(pieces_[i], pieces_[i + 1]);
   }
 }
 

@@ -11,11 +11,6 @@ void LineExtractorConfig::visit(config::FieldVisitor& visitor) {
                  {"1",
                   {1.0, 10.0},
                   "a line whose residuals are this many times what the noise allows is no wall"});
-  visitor.number("start_phi_sigma", start_phi_sigma,
-                 {"rad",
-                  {0.01, 0.5},
-                  "the batch start (pears section 4.6) collects beams until the direction is known "
-                  "this well"});
   visitor.number("max_gap", max_gap,
                  {"m", {0.0, 100.0}, "a wall may be interrupted this far and stays one segment"});
   visitor.integer("max_gap_beams", max_gap_beams,

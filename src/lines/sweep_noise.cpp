@@ -47,14 +47,6 @@ Eigen::RowVector3d SweepNoise::acrossLine(const LineEstimate& line, std::size_t 
   return normal * motionJacobian(*scan_, beam, scan_->point(beam));
 }
 
-double SweepNoise::ofPrediction(const LineEstimate& line, std::size_t from, std::size_t to) const {
-  const std::size_t start = beams_->beam[from] % scan_->beams();
-  const std::size_t beam = beams_->beam[to] % scan_->beams();
-  const double passed = std::abs(timeRatio(*scan_, beam) - timeRatio(*scan_, start));
-  const Eigen::RowVector3d across = acrossLine(line, beam);
-  return across * covarianceAfter(passed, scan_->motion_noise) * across.transpose();
-}
-
 // An error of the motion that moves beam i by nᵢ·dpᵢ across the line moves the estimate by
 // A⁻¹ Σ wᵢ hᵢ nᵢ·dpᵢ, with the information A, the weights w and the derivatives h of the residuals.
 void SweepNoise::addTo(const Piece& piece, const Eigen::Matrix2d& jacobian, double gate_squared) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lines/cost.h"
+#include "lines/known_walls.h"
 #include "lines/motion.h"
 #include "lines/recording.h"
 #include "lines/scenario.h"
@@ -58,6 +59,8 @@ void otherWorlds() {
   run("hall_s1", {1081, wide, 0.01}, hall);
   run("obtuse_s1", {1081, wide, 0.01}, obtuseRoom);
   run("obtuse_s3", {1081, wide, 0.03}, obtuseRoom);
+  boundOfObtuse("obtuse_s1", {1081, wide, 0.01}, kPoses);
+  boundOfObtuse("obtuse_s3", {1081, wide, 0.03}, kPoses);
   run("outliers5", with_outliers, lRoom);
   run("proportional", proportional, lRoom);
   run("counts_5cm", counts_5cm, lRoom);

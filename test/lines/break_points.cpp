@@ -44,34 +44,32 @@ TEST(BreakPoints, SeparatePutsTheBreakAtTheCorner) {
   }
 }
 
-TEST(BreakPoints, FragmentIsSharedOutBetweenItsNeighbours) {
-  const SmallScan scan = cornerScan();
-  Piece before = scan.piece(250, 460, test::kLineAhead);
-  Piece after = scan.piece(475, 600, test::kLineAside);
-  Piece fragment;
-  fragment.first = before.end;
-  fragment.end = after.first;
-  fragment.beams = static_cast<double>(fragment.size());
-  EXPECT_TRUE(BreakPoints(scan.beams, scan.config).shareOut(fragment, &before, &after));
-  EXPECT_EQ(before.end, scan.at(test::kFirstAside));
-  EXPECT_EQ(after.first, scan.at(test::kFirstAside));
+// Beams 300 to 310 hit something; a single return between things in front is taken, between things
+// behind it is not.
+TEST(BreakPoints, OneReturnIsEnoughWhereTheLineIsHidden) {
+  for (const bool is_hidden : {true, false}) {
+    SmallScan scan = cornerScan();
+    for (std::size_t beam = 300; beam <= 310; ++beam) {
+      if (beam != 305) scan.scan.setRange(beam, is_hidden ? 1.0 : 3.0);
+    }
+    scan.beams.assign(scan.scan);
+    Piece piece = scan.piece(250, 300, test::kLineAhead);
+    BreakPoints(scan.beams, scan.config).extendForward(piece, scan.at(310));
+    EXPECT_EQ(piece.end, scan.at(is_hidden ? 306 : 300));
+  }
 }
 
-TEST(BreakPoints, WhatNeitherNeighbourExplainsIsNoFragment) {
-  const SmallScan scan = cornerScan();
-  Piece before = scan.piece(250, 460, test::kLineAhead);
-  before.line.rho += 0.2;
-  Piece after = scan.piece(475, 600, test::kLineAside);
-  after.line.rho += 0.2;
-  Piece piece;
-  piece.first = before.end;
-  piece.end = after.first;
-  piece.beams = static_cast<double>(piece.size());
-  const BreakPoints breaks(scan.beams, scan.config);
-  EXPECT_FALSE(breaks.shareOut(piece, &before, &after));
-  EXPECT_FALSE(breaks.shareOut(piece, nullptr, nullptr));
-  EXPECT_EQ(before.end, scan.at(460));
-  EXPECT_EQ(after.first, scan.at(475));
+TEST(BreakPoints, BackwardTheyTakeTheSame) {
+  for (const bool is_hidden : {true, false}) {
+    SmallScan scan = cornerScan();
+    for (std::size_t beam = 300; beam <= 310; ++beam) {
+      if (beam != 305) scan.scan.setRange(beam, is_hidden ? 1.0 : 3.0);
+    }
+    scan.beams.assign(scan.scan);
+    Piece piece = scan.piece(311, 400, test::kLineAhead);
+    BreakPoints(scan.beams, scan.config).extendBackward(piece, scan.at(300));
+    EXPECT_EQ(piece.first, scan.at(is_hidden ? 305 : 311));
+  }
 }
 
 }  // namespace

@@ -64,7 +64,6 @@ void expectLimits(Number LineExtractorConfig::*setting, Number low, Number high,
 TEST(SettingLimits, EveryScanEnds) {
   expectLimits(&LineExtractorConfig::gate, 1.0, 10.0, 0.01);
   expectLimits(&LineExtractorConfig::misfit, 1.0, 10.0, 0.01);
-  expectLimits(&LineExtractorConfig::start_phi_sigma, 0.01, 0.5, 0.001);
   expectLimits(&LineExtractorConfig::max_gap, 0.0, 100.0, 0.1);
   expectLimits(&LineExtractorConfig::max_gap_beams, 0, 1000, 1);
   expectLimits(&LineExtractorConfig::min_length, 0.0, 100.0, 0.1);

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "sightline/scan/scan.h"
 
 namespace sightline::lines {
@@ -25,8 +27,19 @@ struct BeamArray {
   /// `has_jitter`.
   std::vector<float> cross_covariance;
   bool has_jitter = false;
+  bool has_across = false;     ///< whether anything errs across the beams
   std::size_t revolution = 0;  ///< returns of one revolution
   std::size_t size = 0;        ///< `revolution`, or twice that on a full circle
+
+  /// Variances along the beams of where they meet the surface about them, with the error across the
+  /// beams in them, which a slanting surface turns into one along them [m²].
+  const float* slantVariances() const {
+    return has_across ? slant_variance_.data() : range_variance.data();
+  }
+
+  Eigen::Vector2d direction(std::size_t i) const {
+    return {static_cast<double>(direction_x[i]), static_cast<double>(direction_y[i])};
+  }
 
   /// Takes a scan in. On a full circle the revolution starts at `first_beam` and every return
   /// stands here twice, one revolution apart, so that nothing is cut at the seam. The arrays are
@@ -46,9 +59,12 @@ struct BeamArray {
   void place(const scan::Scan& scan, std::size_t first, std::size_t end);
   void placeMoved(const scan::Scan& scan, std::size_t first, std::size_t end);
   void repeatRevolution(std::size_t beams);
+  void addSlant();
+  float slantAt(std::size_t i, std::size_t k) const;
   void pad();
 
   std::shared_ptr<const scan::ScanGeometry> geometry_;
+  std::vector<float> slant_variance_;
   std::vector<float> cosines_, sines_;  // of its beams
 };
 

@@ -13,8 +13,9 @@ class BreakPoints {
  public:
   BreakPoints(const BeamArray& beams, const LineExtractorConfig& config);
 
-  /// Adds the returns after (before) a piece that are on its line, up to (down to) `limit`. Two in
-  /// a row are needed past a stray one.
+  /// Adds the returns after (before) a piece that are on its line, up to (down to) `limit`. Past
+  /// returns that are not, two in a row are needed, or one where all of those are in front of the
+  /// line and hide it.
   void extendForward(Piece& piece, std::size_t limit) const;
   void extendBackward(Piece& piece, std::size_t limit) const;
   /// The same, but nothing before `from` (from there on) is looked at: something else is there.
@@ -24,10 +25,6 @@ class BreakPoints {
   void trim(Piece& piece) const;
   /// Puts the break between two pieces where their lines together explain the returns best.
   void separate(Piece& before, Piece& after) const;
-  /// Shares the returns of a piece out between its neighbours, either of which may be null, where
-  /// these explain them no worse than chance allows: such a piece is a fragment. False where they
-  /// do not.
-  bool shareOut(const Piece& piece, Piece* before, Piece* after) const;
 
  private:
   struct Break {
@@ -36,15 +33,12 @@ class BreakPoints {
   };
   Break bestBreak(const LineEstimate& before, const LineEstimate& after, std::size_t low,
                   std::size_t high) const;
-  bool mayExplain(const LineEstimate& before, const LineEstimate& after, const Piece& piece,
-                  double limit) const;
   bool adjoin(const Piece& before, const Piece& after, const LineEstimate& line) const;
   bool isOn(const LineEstimate& line, std::size_t i) const;
 
   const BeamArray& beams_;
   Gap gap_;
   float gate_squared_;
-  double fragment_limit_;
 };
 
 }  // namespace sightline::lines

@@ -45,7 +45,8 @@ class EndPoints {
   /// Between an outermost return of a piece and the one before it: near a corner the noise may put
   /// a return on the other wall.
   double spacingAt(const Piece& piece, std::size_t i) const;
-  double jitterAt(const Eigen::Vector2d& point, const Eigen::Vector2d& slide) const;
+  double jitterAt(const Eigen::Vector2d& point, const Eigen::Vector2d& origin,
+                  const Eigen::Vector2d& slide) const;
   Meeting meet(const LineEstimate& line, std::size_t beam) const;
 
   const scan::Scan& scan_;

@@ -21,6 +21,7 @@ class Gap {
     return beams.beam[to] - beams.beam[from] <= 1 + max_missing_;
   }
 
+  bool isShort(double length) const { return std::abs(length) <= max_length_; }
   /// Judges the gap on a line from the return `from` to the return `to`, `length` apart, with every
   /// return between them off the line. One stray return in front of the line is no opening, nor are
   /// a few beams that came back with nothing; anything else is judged by its length.

@@ -10,6 +10,7 @@
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/lines/merging.h"
 #include "sightline/lines/piece.h"
+#include "sightline/lines/segmentation.h"
 #include "sightline/lines/sweep_noise.h"
 #include "sightline/scan/scan.h"
 
@@ -17,10 +18,10 @@ namespace sightline::lines {
 
 /// Straight walls in a scan, each once, with its covariance and its ends.
 ///
-/// The line filter of pears section 4 finds the pieces. Each is then fitted to its beams by maximum
-/// likelihood, the breaks between neighbours are put where the two lines explain the beams best,
-/// and pieces of one wall are joined; what is left that is long enough, and that the noise of the
-/// beams explains, is a wall. A run that is likelier round than straight is an arc.
+/// The returns are divided into pieces by penalised maximum likelihood (Segmentation). Each is then
+/// fitted to its beams by the iterated filter of pears section 4 (eqs 37 and 39), and pieces of one
+/// wall are joined; what is left that is long enough, and that the noise of the beams explains, is
+/// a wall. A run that is likelier round than straight is an arc.
 class LineExtractor {
  public:
   /// Throws config::Error where a setting is out of range.
@@ -36,10 +37,7 @@ class LineExtractor {
  private:
   void reserve(std::size_t beams);
   void findPieces(const scan::Scan& scan);
-  std::size_t findPiecesIn(std::size_t first, std::size_t end, std::size_t most);
   void refinePieces();
-  void splitPieces();
-  void dropFragments();
   void mergePieces();
   std::size_t mergeWithOneFrom(std::size_t first, const Merging& merging, Piece& wall) const;
   void placeBreaks();
@@ -56,7 +54,7 @@ class LineExtractor {
   BeamArray beams_;
   SweepNoise sweep_noise_;
   std::vector<Piece> pieces_;
-  std::vector<Piece> parts_;  // of pieces, while they are split
+  Segmentation segmentation_;
   ArcFinder arc_finder_;
   std::vector<geometry::LineSegment> segments_;
   std::vector<geometry::Arc> arcs_;

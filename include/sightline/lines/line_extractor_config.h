@@ -9,7 +9,6 @@ namespace sightline::lines {
 struct LineExtractorConfig {
   double gate = 3.5;              ///< g of pears eq. 33 [σ]
   double misfit = 1.5;            ///< residuals of a wall over those of the noise, at most
-  double start_phi_sigma = 0.15;  ///< of the batch start, at most [rad]
   double max_gap = 0.3;           ///< [m]
   int max_gap_beams = 4;
   double min_length = 0.5;  ///< [m]

@@ -57,6 +57,17 @@ inline Packet sums(const Packet& a, const Packet& b, const Packet& c, const Pack
          Packet{a[2], b[2], c[2], d[2]} + Packet{a[3], b[3], c[3], d[3]};
 }
 
+/// The same in double. Functions return none: without AVX there is no register to do it in.
+using Quad = double __attribute__((vector_size(kLanes * sizeof(double))));
+
+inline void widen(const Packet& packet, Quad& quad) {
+  quad = __builtin_convertvector(packet, Quad);
+}
+
+inline double sum(const Quad& quad) {
+  return (quad[0] + quad[2]) + (quad[1] + quad[3]);
+}
+
 inline double sum(const Packet& packet) {
   return static_cast<double>(packet[0] + packet[2]) + static_cast<double>(packet[1] + packet[3]);
 }

@@ -30,9 +30,6 @@ class SweepNoise {
   /// Covariance of the difference of two lines in (ρ, φ), seen from a position on the first.
   Eigen::Matrix2d ofDifference(const Piece& before, const Piece& after, double position,
                                double gate_squared);
-  /// Variance across a line of the motion from one return to another, which eq. 21 adds to the
-  /// prediction (Q) [m²].
-  double ofPrediction(const LineEstimate& line, std::size_t from, std::size_t to) const;
 
   /// Takes the noise into the covariance of a piece's segment and the variances of its ends.
   void widen(const Piece& piece, double gate_squared, geometry::LineSegment& segment);

@@ -64,6 +64,8 @@ class ScanFeed {
 
   /// The next scan that is settled; nothing where there is none, or it may wait.
   std::optional<FeedResult> next(std::int64_t now);
+  /// Whether scans wait for what belongs to them: next() has to be asked again as time goes on.
+  bool isWaiting() const { return !waiting_.empty(); }
   /// The next scan where nothing more will come.
   std::optional<FeedResult> flush();
 

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+
+#include "sightline/lines/atoms.h"
+#include "sightline/lines/beam_array.h"
+#include "sightline/lines/line_extractor_config.h"
+#include "sightline/lines/line_moments.h"
+
+namespace sightline::lines {
+
+/// Returns of one line in a division of a scan into atoms.
+struct Span {
+  std::size_t first_atom = 0;
+  std::size_t end_atom = 0;
+  std::size_t first = 0;  ///< return
+  std::size_t end = 0;
+  LineMoments moments;
+  double cost = 0.0;  ///< χ² about the line
+};
+
+/// Both as one.
+Span joined(const Span& before, const Span& after);
+
+/// Breaks between spans that adjoin.
+///
+/// Two walls that meet do so on the line of sight between two returns. In u = n/ρ (LineMoments)
+/// that is linear, so that χ² of two lines that are held together there costs no more than that of
+/// two free ones; and it says far better than this where walls meet that turn by little.
+class SpanBreaks {
+ public:
+  explicit SpanBreaks(const LineExtractorConfig& config);
+
+  /// What another line costs: what chance may gain by its distance, direction and break.
+  double price() const { return price_; }
+  /// What a return on no line costs.
+  double strayPrice() const { return stray_price_; }
+
+  /// Takes the atoms and returns that the spans are of; they have to live as long.
+  void assign(const Atoms& atoms, const BeamArray& beams);
+
+  /// Whether nothing lies between two spans, and no gap.
+  bool adjoin(const Span& before, const Span& after) const;
+  /// Puts the break where two lines, fitted anew for every break and held together there, explain
+  /// the returns best. Spans beyond a gap are left alone.
+  void settle(Span& before, Span& after) const;
+  /// Makes one of two that adjoin, where that is likelier, or a wall that is not quite straight.
+  bool join(Span& before, const Span& after) const;
+  /// Whether a short span is no more than the corner of its neighbours: gives it to the first then,
+  /// with the break to be settled.
+  bool shareOut(Span& before, const Span& fragment, const Span& after) const;
+
+ private:
+  struct Break;
+
+  bool isOneWall(const Span& whole, double parts, double bend) const;
+  void settleOnAtoms(const Span& before, const Span& after, Break& best) const;
+  void settleWithin(const Span& before, const Span& after, Break& best) const;
+  double costOf(const Break& of) const;
+
+  double gate_;
+  double misfit_;
+  double price_;
+  double stray_price_;
+  const Atoms* atoms_ = nullptr;
+  const BeamArray* beams_ = nullptr;
+};
+
+}  // namespace sightline::lines
