@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <sensor_msgs/MultiEchoLaserScan.h>
 
@@ -147,6 +150,31 @@ inline RobotInput partialSweeps(int parts) {
       const ros::Duration after(whole.time_increment * static_cast<double>(first));
       scan.header.stamp = whole.header.stamp + after;
       bag.write("/scan", recorded - ros::Duration(0.1) + after + ros::Duration(0.01), scan);
+    }
+  };
+  return input;
+}
+
+/// The driver names the beams in the other order than the device takes them.
+inline RobotInput mirroredScans() {
+  RobotInput input = asItShouldBe();
+  input.name = "mirrored_scans";
+  input.bag.scan = [](sensor_msgs::LaserScan& scan, double) {
+    std::reverse(scan.ranges.begin(), scan.ranges.end());
+  };
+  return input;
+}
+
+/// From one time to another the driver sends one scan over and over, with stamps that go on.
+inline RobotInput repeatedScans(double from, double to) {
+  RobotInput input = asItShouldBe();
+  input.name = "repeated_scans";
+  const auto kept = std::make_shared<std::vector<float>>();
+  input.bag.scan = [=](sensor_msgs::LaserScan& scan, double time) {
+    if (time < from || time >= to) {
+      *kept = scan.ranges;
+    } else {
+      scan.ranges = *kept;
     }
   };
   return input;

@@ -133,6 +133,7 @@ void LiveFeed::deliver(pipeline::FeedResult& result) {
   if (result.located->odometry_broke) {
     monitor.warn("the odometry was reset or leaped: bridged by the scans");
   }
+  if (result.located->turns_opposite) monitor.warn(kTurnsOpposite);
   try {
     consumer_(std::move(*result.located));
     monitor.accept();

@@ -18,20 +18,19 @@ OdometryOutput::OdometryOutput(Output& output, const pipeline::Frames& frames, b
       transforms_(publish_tf ? output.openTransforms() : Port<tf2_msgs::TFMessage>()) {}
 
 std::string OdometryOutput::write(const pipeline::Estimates& estimates) {
-  if (estimates.located.scanner > 0) return "";
   ++scans_;
   const auto& update = estimates.odometry;
   if (!update) {
-    const std::string reason = estimates.located.T_base_sensor ? "older than the scan before it"
-                                                               : estimates.located.no_odometry;
     ++left_out_;
-    ++without_pose_[reason];
-    return reason;
+    ++without_pose_[estimates.no_odometry];
+    return estimates.no_odometry;
   }
   ++states_[static_cast<std::size_t>(update->state)];
   if (estimates.located.T_odom_base) ++with_wheels_;
   odometry_.write(toLaserOdometryMessage(*update, frames_.odom, frames_.base));
-  if (!publish_tf_) return "";
+  // One transform for each time, as in RoomOutput.
+  if (!publish_tf_ || update->stamp == sent_) return "";
+  sent_ = update->stamp;
   tf2_msgs::TFMessage transforms;
   transforms.transforms = {
       toTransformMessage(frames_.odom, frames_.base, update->stamp, update->pose.mean)};
@@ -46,10 +45,8 @@ std::vector<std::string> OdometryOutput::summary() const {
   std::vector<std::string> lines{fmt::format(
       "odometry: {} of {} scans have a pose, {} of them flagged, {} with the wheels as prior",
       poses, scans_, flagged, with_wheels_)};
-  if (scans_ > poses) {
-    lines.push_back(fmt::format(
-        "odometry: {} scans left out: not newer than the scan before, or of unknown mounting",
-        scans_ - poses));
+  for (const auto& [reason, count] : without_pose_) {
+    lines.push_back(fmt::format("odometry: {} scans left out: {}", count, reason));
   }
   return lines;
 }

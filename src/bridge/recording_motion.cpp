@@ -9,6 +9,7 @@
 #include "sightline/bridge/tf_transforms.h"
 #include "sightline/bridge/time.h"
 #include "sightline/pipeline/scan_odometry.h"
+#include "sightline/pipeline/turn_sense.h"
 
 namespace sightline::bridge {
 
@@ -18,6 +19,15 @@ constexpr double kLateness = 0.02;    // offset worth a word [s]
 constexpr double kSigmas = 3.0;       // of an offset that is no chance
 constexpr double kScaleError = 0.03;  // worth a word
 constexpr double kManyFlagged = 0.1;  // share of the steps
+
+constexpr std::int64_t kWidestGap = 500'000'000;  // of the odometry [ns]
+
+void addTurn(const logs::Trajectory& wheels, const pipeline::LocatedScan& located,
+             pipeline::TurnSense& sense) {
+  const auto pose = geometry::poseAt(wheels.begin(), wheels.end(), located.scan.stamp, kWidestGap);
+  if (!pose) return sense.skip();
+  sense.add(located.scan, *pose, located.T_base_sensor.value_or(geometry::Pose2()));
+}
 
 pipeline::FeedConfig feedOfScansAlone() {
   pipeline::FeedConfig config;
@@ -58,10 +68,13 @@ std::map<std::string, std::size_t> RecordingCheck::pass(
 RecordingCheck::Motion RecordingCheck::motionOfScans() const {
   Motion motion;
   if (kept_.empty()) return motion;
-  pipeline::ScanOdometry odometry({});
+  pipeline::ScanOdometry reckoner({});
   std::optional<std::int64_t> before;
+  pipeline::TurnSense sense;
+  const logs::Trajectory* wheels = odometry();
   pass(kept_.begin()->second, [&](const pipeline::LocatedScan& located) {
-    const auto update = odometry.update(located);
+    if (wheels) addTurn(*wheels, located, sense);
+    const auto update = reckoner.update(located);
     if (!update) return;
     ++motion.scans;
     motion.flagged += update->isFlagged();
@@ -71,6 +84,7 @@ RecordingCheck::Motion RecordingCheck::motionOfScans() const {
     before = update->stamp;
     motion.path.push_back({update->stamp, update->pose.mean});
   });
+  motion.turns_opposite = sense.isOpposite();
   return motion;
 }
 
@@ -90,6 +104,11 @@ Section RecordingCheck::motionSection(const Motion& motion) const {
   const logs::Trajectory* wheels = odometry();
   if (!wheels) {
     section.facts.emplace_back("no odometry to hold against them");
+    return section;
+  }
+  if (motion.turns_opposite) {
+    section.findings.push_back(
+        {Severity::kError, std::string("of the first scanner: ") + kTurnsOpposite});
     return section;
   }
   const auto comparison = logs::compareSteps(motion.steps, *wheels);

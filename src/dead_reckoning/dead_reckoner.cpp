@@ -6,10 +6,7 @@
 
 #include <Eigen/LU>
 
-#include "sightline/dead_reckoning/histogram_matcher.h"
 #include "sightline/dead_reckoning/motion_gradient.h"
-#include "sightline/dead_reckoning/pose_space.h"
-#include "sightline/dead_reckoning/submap_matcher.h"
 
 namespace sightline::dead_reckoning {
 
@@ -27,32 +24,30 @@ struct ReckonerTuning {
   // A sweep is corrected anew where the motion found moves its last beam by this much [m, rad].
   double sweep_position = 0.003;
   double sweep_heading = 0.001;
-  // Uncertainty of the motion within a sweep, as a ratio of what a change of velocity makes of it,
-  // and the time over which that change is averaged [s].
+  // Uncertainty of the motion within a sweep, as a ratio of what a change of velocity makes of it.
   double sweep_unsure = 0.25;
-  double acceleration_time = 0.15;
   // A match may be this much further off than the carrier can get: it has errors too [m, rad].
   double slack_position = 0.05;
   double slack_heading = 0.05;
+  // Stamps of two scanners that are nearer than this are one [s].
+  double no_time = 1e-6;
+  // A scan of which the reference knows no more than this share looks where nobody has looked, if
+  // another scanner has matched so shortly before [s].
+  double little_known = 0.3;
+  double held = 0.5;
+  // It joins the reference where the pose is known to this [m, rad].
+  double certain_position = 0.01;
+  double certain_heading = 0.01;
 };
 constexpr ReckonerTuning kReckoner{};
-
-std::unique_ptr<Matcher> makeMatcher(const DeadReckonerConfig& config) {
-  config::validate(config);
-  switch (config.method) {
-    case Method::kPoseSpace:
-      return std::make_unique<PoseSpaceMatcher>(config.pose_space);
-    case Method::kHistogram:
-      return std::make_unique<HistogramMatcher>(config.histogram);
-    case Method::kSubmap:
-      break;
-  }
-  return std::make_unique<SubmapMatcher>(config.submap);
-}
 
 bool isLonger(const Eigen::Vector3d& moved) {
   return moved.head<2>().norm() > kReckoner.sweep_position ||
          std::abs(moved[2]) > kReckoner.sweep_heading;
+}
+
+bool isFound(const Match& match) {
+  return match.outcome.state != MatchState::kFailed && match.outcome.state != MatchState::kInitial;
 }
 
 // Covariance that the noise of the motion makes of a pose merged of prediction and match.
@@ -69,25 +64,30 @@ DeadReckoner::DeadReckoner(const DeadReckonerConfig& config)
 
 std::optional<DeadReckoningUpdate> DeadReckoner::update(
     const scan::Scan& scan, const Pose2& T_base_sensor, const std::optional<MotionPrior>& prior,
-    const std::optional<scan::ElapsedTime>& elapsed) {
-  const std::optional<Match> found = match(scan, T_base_sensor, prior, elapsed);
+    const std::optional<scan::ElapsedTime>& elapsed, std::size_t scanner) {
+  const std::optional<Match> found = match(scan, T_base_sensor, prior, elapsed, scanner);
   if (!found) return std::nullopt;
   return commit(*found);
 }
 
 std::optional<Match> DeadReckoner::match(const scan::Scan& scan, const Pose2& T_base_sensor,
                                          const std::optional<MotionPrior>& prior,
-                                         const std::optional<scan::ElapsedTime>& elapsed) const {
-  Match match = begin(scan, elapsed);
-  if (!match.is_first && match.elapsed <= 0.0) return std::nullopt;
+                                         const std::optional<scan::ElapsedTime>& elapsed,
+                                         std::size_t scanner) const {
+  Match match = begin(scan, elapsed, scanner);
+  const bool is_older = match.elapsed < 0.0 || match.since_own.value_or(1.0) <= 0.0;
+  if (!match.is_first && is_older) return std::nullopt;
   matchWithin(match.elapsed, habit_.expected(), scan, T_base_sensor, prior, match);
-  if (match.outcome.state == MatchState::kFailed && !match.is_first) {
+  if (isNewView(match)) {
+    match.outcome = {};
+    match.outcome.state = MatchState::kInitial;
+  } else if (match.outcome.state == MatchState::kFailed && !match.is_first) {
     Match wider = match;
-    const double longest = elapsed ? elapsed->longest : match.elapsed;
-    matchWithin(longest, config_.carrier, scan, T_base_sensor, prior, wider);
+    const double longer = elapsed ? elapsed->longest - elapsed->usual : 0.0;
+    matchWithin(match.elapsed + longer, config_.carrier, scan, T_base_sensor, prior, wider);
     if (wider.outcome.state != MatchState::kFailed) match = std::move(wider);
   }
-  if (match.outcome.state != MatchState::kFailed) {
+  if (isFound(match)) {
     match.step = geometry::between(T_odom_base_, match.outcome.T_odom_base);
   } else {
     if (!match.is_first) match.step = match.prediction.step;
@@ -97,28 +97,40 @@ std::optional<Match> DeadReckoner::match(const scan::Scan& scan, const Pose2& T_
   return match;
 }
 
-Match DeadReckoner::begin(const scan::Scan& scan,
-                          const std::optional<scan::ElapsedTime>& elapsed) const {
+Match DeadReckoner::begin(const scan::Scan& scan, const std::optional<scan::ElapsedTime>& elapsed,
+                          std::size_t scanner) const {
   Match match;
   match.stamp = scan.stamp;
+  match.scanner = scanner;
   match.revision = revision_;
   match.is_first = !stamp_;
-  if (stamp_ && elapsed) {
-    match.elapsed = elapsed->usual;
-    match.elapsed_sigma = elapsed->sigma;
+  if (const ScannerTrack* own = tracks_.of(scanner)) {
+    match.since_own =
+        elapsed ? elapsed->usual : 1e-9 * static_cast<double>(scan.stamp - own->stamp);
+    match.elapsed_sigma = elapsed ? elapsed->sigma : 0.0;
+    match.elapsed = *match.since_own - (time_ - own->time);
   } else if (stamp_) {
     match.elapsed = 1e-9 * static_cast<double>(scan.stamp - *stamp_);
   }
+  if (std::abs(match.elapsed) < kReckoner.no_time) match.elapsed = 0.0;
   return match;
+}
+
+bool DeadReckoner::isNewView(const Match& match) const {
+  if (match.is_first || match.outcome.state != MatchState::kFailed) return false;
+  if (match.outcome.known > kReckoner.little_known) return false;
+  return tracks_.isHeldByOther(match.scanner, time_ + match.elapsed - kReckoner.held);
 }
 
 void DeadReckoner::matchWithin(double elapsed, const CarrierConfig& carrier, const scan::Scan& scan,
                                const Pose2& T_base_sensor, const std::optional<MotionPrior>& prior,
                                Match& match) const {
+  if (match.since_own) *match.since_own += elapsed - match.elapsed;
   match.elapsed = elapsed;
   match.prediction = predict(carrier, prior, elapsed);
   const Eigen::Vector3d twist = elapsed > 0.0 ? match.prediction.step.log() / elapsed : twist_;
   match.surfaces = readSurfaces(scan, T_base_sensor, twist);
+  match.surfaces.scanner = match.scanner;
   if (!match.is_first && matcher_->hasReference()) locate(scan, T_base_sensor, match);
 }
 
@@ -151,25 +163,22 @@ void DeadReckoner::correctSweep(const scan::Scan& scan, const Pose2& T_base_sens
                                 const UncertainPose2& predicted, const SearchWindow& window,
                                 Match& match) const {
   const double duration = scan.duration();
-  const double elapsed = match.elapsed;
-  const Eigen::Vector3d found =
-      geometry::between(T_odom_base_, match.outcome.T_odom_base).log() / elapsed;
-  const Eigen::Vector3d acceleration = accelerationTo(found, elapsed);
+  const ScannerTrack* own = tracks_.of(match.scanner);
+  if (own == nullptr) return;
+  const double elapsed = *match.since_own;
+  const Eigen::Vector3d found = own->stepTo(match.outcome.T_odom_base).log() / elapsed;
+  const Eigen::Vector3d acceleration = own->accelerationTo(found, elapsed);
   // Velocity in the middle of the sweep; the one found holds in the middle of the step.
   const Eigen::Vector3d during = found + 0.5 * (elapsed + duration) * acceleration;
-  if (isLonger(duration * (during - match.prediction.step.log() / elapsed))) {
+  const Eigen::Vector3d assumed =
+      match.elapsed > 0.0 ? match.prediction.step.log() / match.elapsed : twist_;
+  if (isLonger(duration * (during - assumed))) {
     match.surfaces = readSurfaces(scan, T_base_sensor, during);
+    match.surfaces.scanner = match.scanner;
     match.outcome = matcher_->match(match.surfaces, predicted, window);
   }
   const Eigen::Vector3d unsure = kReckoner.sweep_unsure * duration * elapsed * acceleration;
   match.outcome.extra_covariance += unsure.cwiseAbs2().asDiagonal();
-}
-
-// Averaged over some time, as what is found of a sweep comes back in what is found of the next.
-Eigen::Vector3d DeadReckoner::accelerationTo(const Eigen::Vector3d& twist, double elapsed) const {
-  if (!moving_) return Eigen::Vector3d::Zero();
-  const double kept = std::exp(-elapsed / kReckoner.acceleration_time);
-  return kept * acceleration_ + (1.0 - kept) * (twist - twist_) / elapsed;
 }
 
 // Tells whether the carrier can have made a step, as far as it is known where it began.
@@ -196,11 +205,13 @@ DeadReckoningUpdate DeadReckoner::commit(const Match& match) {
     update.step = advance(match);
   }
   stamp_ = match.stamp;
+  time_ += match.elapsed;
+  follow(match);
   learn(match);
   update.pose = {T_odom_base_, errors_.pose()};
   update.twist = {twist_, errors_.twist()};
-  if (match.elapsed > 0.0) {
-    const double ratio = match.elapsed_sigma / match.elapsed;
+  if (match.since_own) {
+    const double ratio = match.elapsed_sigma / *match.since_own;
     update.twist.covariance += ratio * ratio * twist_ * twist_.transpose();
   }
   return update;
@@ -209,30 +220,59 @@ DeadReckoningUpdate DeadReckoner::commit(const Match& match) {
 UncertainPose2 DeadReckoner::advance(const Match& match) {
   PoseMeasurement measurement;
   bridged_ += match.elapsed;
-  if (match.outcome.state != MatchState::kFailed) {
+  if (isFound(match)) {
     measurement = {match.outcome.information, match.outcome.extra_covariance,
                    match.motion_covariance, match.outcome.common};
     bridged_ = 0.0;
   }
+  const ScannerTrack* own = tracks_.of(match.scanner);
+  const TwistInterval interval =
+      own == nullptr || match.outcome.state == MatchState::kInitial
+          ? TwistInterval{match.scanner, {}, {}, 0.0}
+          : TwistInterval{match.scanner, own->T_odom_base, own->stepTo(match.T_odom_base),
+                          *match.since_own};
   const Eigen::Matrix3d covariance =
-      errors_.advance(T_odom_base_, match.prediction, match.step, match.elapsed, measurement);
+      errors_.advance(T_odom_base_, match.prediction, interval, measurement);
   T_odom_base_ = match.T_odom_base;
-  const Eigen::Vector3d twist = match.step.log() / match.elapsed;
-  if (match.outcome.state != MatchState::kFailed) habit_.learn(twist_, twist, match.elapsed);
-  acceleration_ = accelerationTo(twist, match.elapsed);
-  twist_ = twist;
-  moving_ = true;
   return {match.step, covariance};
+}
+
+// Goes on with the velocity since the same scanner's scan before.
+void DeadReckoner::follow(const Match& match) {
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+  const ScannerTrack* own = tracks_.of(match.scanner);
+  if (own != nullptr && match.outcome.state != MatchState::kInitial) {
+    const Eigen::Vector3d twist = own->stepTo(T_odom_base_).log() / *match.since_own;
+    if (isFound(match)) habit_.learn(own->twist, twist, *match.since_own);
+    acceleration = own->accelerationTo(twist, *match.since_own);
+    twist_ = twist;
+    moving_ = true;
+  }
+  const bool is_held = isFound(match) || match.is_first;
+  tracks_.set(match.scanner,
+              {match.stamp, time_, T_odom_base_, moving_, twist_, acceleration, is_held});
+}
+
+// Whether the place of a new view is known so well that it may be put into the reference: where it
+// is off, it stays off against what the other scanners see.
+bool DeadReckoner::isCertain(const Match& match) const {
+  if (!moving_ && match.elapsed > 0.0) return false;
+  const Eigen::Vector3d sigma = errors_.againstReference().diagonal().cwiseSqrt();
+  return sigma.head<2>().maxCoeff() < kReckoner.certain_position &&
+         sigma.z() < kReckoner.certain_heading;
 }
 
 void DeadReckoner::learn(const Match& match) {
   if (match.is_first) matcher_->clear();
   const bool had_reference = matcher_->hasReference();
-  const double share_new = matcher_->learn(match.surfaces, T_odom_base_, match.outcome);
+  const bool is_vague =
+      match.outcome.state == MatchState::kInitial && !match.is_first && !isCertain(match);
+  const double share_new =
+      is_vague ? 0.0 : matcher_->learn(match.surfaces, T_odom_base_, match.outcome);
   // The pose is certain against a reference that begins with it, however long the gap was.
   const bool begins = !had_reference && matcher_->hasReference();
   if (begins) bridged_ = 0.0;
-  if (match.outcome.state == MatchState::kFailed) errors_.displace(match.motion_covariance);
+  if (!isFound(match)) errors_.displace(match.motion_covariance);
   errors_.handOver(begins ? 1.0 : share_new);
 }
 
@@ -245,13 +285,16 @@ void DeadReckoner::reset(const Pose2& T_odom_base) {
   habit_.reset();
   twist_.setZero();
   moving_ = false;
-  acceleration_.setZero();
+  tracks_.clear();
+  time_ = 0.0;
   bridged_ = 0.0;
 }
 
 void DeadReckoner::restartClock() {
   ++revision_;
   stamp_.reset();
+  tracks_.clear();
+  errors_.forgetScans();
 }
 
 }  // namespace sightline::dead_reckoning

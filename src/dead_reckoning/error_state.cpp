@@ -9,7 +9,7 @@ namespace sightline::dead_reckoning {
 namespace {
 
 using geometry::Pose2;
-using Rows = Eigen::Matrix<double, 3, 9>;
+using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 // Derivatives of the next pose's coordinates.
 struct Derivatives {
@@ -21,32 +21,44 @@ struct Derivatives {
       : by_pose(geometry::composeJacobianFirst(T_odom_base, prediction.step)),
         by_step(geometry::composeJacobianSecond(T_odom_base)),
         by_twist(by_step * prediction.by_twist) {}
-
-  // Derivatives of the pose against the reference, by the errors before.
-  Rows rows() const {
-    Rows rows = Rows::Zero();
-    rows.block<3, 3>(0, 3) = by_pose;
-    rows.block<3, 3>(0, 6) = by_twist;
-    return rows;
-  }
 };
 
-Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
+Eigen::MatrixXd symmetric(const Eigen::MatrixXd& matrix) {
   return 0.5 * (matrix + matrix.transpose());
+}
+
+// ∂(twist)/∂(pose at the end of its interval, along the axes of odom).
+Eigen::Matrix3d twistByPose(const TwistInterval& interval) {
+  return twistJacobian(interval.step, interval.elapsed) *
+         geometry::composeJacobianSecond(interval.T_odom_base).transpose();
 }
 
 }  // namespace
 
 void ErrorState::reset() {
-  covariance_.setZero();
+  covariance_.setZero(kScanners, kScanners);
   motion_.setZero();
-  with_motion_.setZero();
+  with_motion_.setZero(kScanners, 3);
+}
+
+void ErrorState::makeRoomFor(std::size_t scanner) {
+  const Eigen::Index size = kScanners + 3 * (static_cast<Eigen::Index>(scanner) + 1);
+  const Eigen::Index before = covariance_.rows();
+  if (size <= before) return;
+  covariance_.conservativeResizeLike(Joint::Zero(size, size));
+  with_motion_.conservativeResizeLike(Columns::Zero(size, 3));
+}
+
+void ErrorState::forgetScans() {
+  covariance_.conservativeResize(kScanners, kScanners);
+  with_motion_.conservativeResize(kScanners, 3);
 }
 
 Eigen::Matrix3d ErrorState::predicted(const Pose2& T_odom_base, const StepPrediction& step) const {
   const Derivatives next(T_odom_base, step);
-  const Rows rows = next.rows();
-  return symmetric(rows * covariance_ * rows.transpose() +
+  Eigen::Matrix<double, 3, 6> rows;
+  rows << next.by_pose, next.by_twist;
+  return symmetric(rows * covariance_.block<6, 6>(kAgainst, kAgainst) * rows.transpose() +
                    next.by_step * step.covariance * next.by_step.transpose());
 }
 
@@ -55,21 +67,22 @@ Eigen::Matrix3d ErrorState::predicted(const Pose2& T_odom_base, const StepPredic
 // stays whole.
 ErrorState::Joint ErrorState::apartFrom(double common) const {
   const auto addMotion = [this](double sign, Joint& joint) {
-    joint.block<3, 9>(3, 0) += sign * with_motion_.transpose();
-    joint.block<9, 3>(0, 3) += sign * with_motion_;
-    joint.block<3, 3>(3, 3) -= sign * with_motion_.block<3, 3>(3, 0);
+    joint.middleRows<3>(kAgainst) += sign * with_motion_.transpose();
+    joint.middleCols<3>(kAgainst) += sign * with_motion_;
+    joint.block<3, 3>(kAgainst, kAgainst) -= sign * with_motion_.middleRows<3>(kAgainst);
   };
   Joint apart = covariance_;
   addMotion(-1.0, apart);
-  apart.block<3, 9>(3, 0) *= std::sqrt(1.0 - common);
-  apart.block<9, 3>(0, 3) *= std::sqrt(1.0 - common);
+  apart.middleRows<3>(kAgainst) *= std::sqrt(1.0 - common);
+  apart.middleCols<3>(kAgainst) *= std::sqrt(1.0 - common);
   addMotion(1.0, apart);
   return apart;
 }
 
 Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPrediction& prediction,
-                                    const Pose2& step, double elapsed,
+                                    const TwistInterval& interval,
                                     const PoseMeasurement& measurement) {
+  makeRoomFor(interval.scanner);
   const Derivatives next(T_odom_base, prediction);
   const Eigen::Matrix3d before = predicted(T_odom_base, prediction).inverse();
   const Eigen::Matrix3d after = (before + measurement.information).inverse();
@@ -80,25 +93,43 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
       rest * next.by_step * prediction.covariance * next.by_step.transpose() * rest.transpose() +
       of_match + measurement.extra_covariance + measurement.motion_covariance;
   // Error of the end of the step besides that of its start, from the errors before.
-  Rows moved = Rows::Zero();
-  moved.block<3, 3>(0, 3) = -gain * next.by_pose;
-  moved.block<3, 3>(0, 6) = rest * next.by_twist;
-  const Eigen::Matrix3d to_twist = twistJacobian(step, elapsed) * next.by_step.transpose();
-  Joint transition;
-  transition << moved, moved, to_twist * moved;
-  transition.block<3, 3>(0, 0) += next.by_pose;
-  transition.block<3, 3>(3, 3) += next.by_pose;
-  Columns entry;
-  entry << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), to_twist;
-  const Joint apart = apartFrom(measurement.common);
+  Rows moved = Rows::Zero(3, covariance_.rows());
+  moved.middleCols<3>(kAgainst) = -gain * next.by_pose;
+  moved.middleCols<3>(kTwist) = rest * next.by_twist;
   const Eigen::Matrix3d step_covariance =
-      moved * apart * moved.transpose() + noise - measurement.common * of_match;
-  covariance_ =
-      transition * covariance_ * transition.transpose() + entry * noise * entry.transpose();
-  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
-  motion_ = measurement.motion_covariance;
-  with_motion_ = entry * motion_;
+      moved * apartFrom(measurement.common) * moved.transpose() + noise -
+      measurement.common * of_match;
+  propagate(moved, next.by_pose, interval, noise, measurement.motion_covariance);
   return symmetric(next.by_step.transpose() * step_covariance * next.by_step);
+}
+
+// Every pose goes on by the step; the twist is that over the scanner's interval, which ends here.
+void ErrorState::propagate(const Rows& moved, const Eigen::Matrix3d& by_pose,
+                           const TwistInterval& interval, const Eigen::Matrix3d& noise,
+                           const Eigen::Matrix3d& motion) {
+  const Eigen::Index size = covariance_.rows();
+  const Eigen::Index own = kScanners + 3 * static_cast<Eigen::Index>(interval.scanner);
+  Joint transition = Joint::Zero(size, size);
+  Columns entry = Columns::Zero(size, 3);
+  for (Eigen::Index place = 0; place < size; place += 3) {
+    if (place == kTwist) continue;
+    transition.middleRows<3>(place) = moved;
+    transition.block<3, 3>(place, place) += by_pose;
+    entry.middleRows<3>(place).setIdentity();
+  }
+  if (interval.elapsed > 0.0) {
+    const Eigen::Matrix3d to_twist = twistByPose(interval);
+    transition.middleRows<3>(kTwist) = to_twist * transition.middleRows<3>(own);
+    entry.middleRows<3>(kTwist) = to_twist;
+  } else {
+    transition.block<3, 3>(kTwist, kTwist).setIdentity();
+  }
+  transition.middleRows<3>(own).setZero();
+  entry.middleRows<3>(own).setZero();
+  covariance_ = symmetric(transition * covariance_ * transition.transpose() +
+                          entry * noise * entry.transpose());
+  motion_ = motion;
+  with_motion_ = entry * motion_;
 }
 
 void ErrorState::displace(const Eigen::Matrix3d& motion_covariance) {
@@ -110,13 +141,13 @@ void ErrorState::displace(const Eigen::Matrix3d& motion_covariance) {
 // share of the error, and a part drawn anew.
 void ErrorState::handOver(double share) {
   const Eigen::Matrix3d left = (1.0 - share) * againstReference() + share * motion_;
-  covariance_.block<3, 9>(3, 0) *= 1.0 - share;
-  covariance_.block<9, 3>(0, 3) *= 1.0 - share;
-  covariance_.block<3, 9>(3, 0) += share * with_motion_.transpose();
-  covariance_.block<9, 3>(0, 3) += share * with_motion_;
-  covariance_.block<3, 3>(3, 3) = left;
-  with_motion_.block<3, 3>(3, 0) *= 1.0 - share;
-  with_motion_.block<3, 3>(3, 0) += share * motion_;
+  covariance_.middleRows<3>(kAgainst) *= 1.0 - share;
+  covariance_.middleCols<3>(kAgainst) *= 1.0 - share;
+  covariance_.middleRows<3>(kAgainst) += share * with_motion_.transpose();
+  covariance_.middleCols<3>(kAgainst) += share * with_motion_;
+  covariance_.block<3, 3>(kAgainst, kAgainst) = left;
+  with_motion_.middleRows<3>(kAgainst) *= 1.0 - share;
+  with_motion_.middleRows<3>(kAgainst) += share * motion_;
 }
 
 }  // namespace sightline::dead_reckoning

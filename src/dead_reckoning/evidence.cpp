@@ -54,13 +54,15 @@ struct EvidenceSums {
   }
 };
 
-// Points of the newest keyframe where the scan sees free space.
-double lookedThrough(const Pose2& T_odom_base, const RangeProfile& profile, const Submap& submap) {
-  const Keyframe& keyframe = submap.keyframes().back();
-  const Pose2 T_base_keyframe = geometry::between(T_odom_base, keyframe.T_odom_base);
+// Points of the scanner's newest keyframe where the scan sees free space.
+double lookedThrough(const Pose2& T_odom_base, const RangeProfile& profile, std::size_t scanner,
+                     const Submap& submap) {
+  const Keyframe* keyframe = submap.newestOf(scanner);
+  if (keyframe == nullptr) return 0.0;
+  const Pose2 T_base_keyframe = geometry::between(T_odom_base, keyframe->T_odom_base);
   const Eigen::Matrix2d rotation = T_base_keyframe.rotation();
   double count = 0.0;
-  for (const SurfacePoint& point : keyframe.points) {
+  for (const SurfacePoint& point : keyframe->points) {
     const Eigen::Vector2d place = rotation * point.position + T_base_keyframe.translation();
     if (profile.at(place) == Sight::kFree) count += 1.0;
   }
@@ -84,7 +86,7 @@ Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeP
     sum.addOther(
         submap.sightOf(rotation * surfaces.points[i].position + match.T_odom_base.translation()));
   }
-  const double through = lookedThrough(match.T_odom_base, profile, submap);
+  const double through = lookedThrough(match.T_odom_base, profile, surfaces.scanner, submap);
   const double count = static_cast<double>(std::max<std::size_t>(1, surfaces.points.size()));
   const double spent = kEvidence.looked_through_cost * through;
   return {sum.inliers / count, (sum.contradictions + through) / count, (sum.cost + spent) / count,

@@ -45,7 +45,8 @@ void Submap::clear() {
 double Submap::add(const geometry::Pose2& T_odom_base, const SurfaceScan& surfaces,
                    std::size_t most) {
   const Eigen::Matrix2d rotation = T_odom_base.rotation();
-  Keyframe keyframe{T_odom_base, rotation.transpose(), surfaces.points, RangeProfile(surfaces), {}};
+  Keyframe keyframe{surfaces.scanner,       T_odom_base, rotation.transpose(), surfaces.points,
+                    RangeProfile(surfaces), {}};
   for (const SurfacePoint& point : surfaces.points) {
     if (!point.hasNormal()) continue;
     keyframe.surfels.push_back({rotation * point.smoothed + T_odom_base.translation(),
@@ -110,6 +111,13 @@ const Surfel* Submap::nearest(const Eigen::Vector2d& point, const Eigen::Vector2
       look(cell(x + ring, y + i), nearest);
     }
   }
+}
+
+const Keyframe* Submap::newestOf(std::size_t scanner) const {
+  const auto found =
+      std::find_if(keyframes_.rbegin(), keyframes_.rend(),
+                   [=](const Keyframe& keyframe) { return keyframe.scanner == scanner; });
+  return found == keyframes_.rend() ? nullptr : &*found;
 }
 
 Sight Submap::sightOf(const Eigen::Vector2d& point) const {

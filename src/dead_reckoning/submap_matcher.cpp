@@ -81,6 +81,13 @@ bool isNear(const Pose2& pose, const UncertainPose2& prior) {
   return off.dot(prior.covariance.inverse() * off) < kMatch.near_prior;
 }
 
+// Whether a scan goes into the reference that is trusted. One that is the first to look where it
+// looks was located by others.
+bool belongsToTrusted(MatchState state) {
+  return state == MatchState::kMatched || state == MatchState::kRecovered ||
+         state == MatchState::kInitial;
+}
+
 bool isNarrow(const SearchWindow& window) {
   return window.isWithin(kMatch.narrow_position, kMatch.narrow_heading);
 }
@@ -104,7 +111,7 @@ MatchOutcome SubmapMatcher::match(const SurfaceScan& surfaces, const UncertainPo
   Attempt first = matchWith(trusted_, task);
   MatchOutcome& outcome = first.outcome;
   outcome.reference.trusted_rasters = first.rasters;
-  if (fresh_.submap.empty()) return outcome;
+  if (fresh_.empty()) return outcome;
   Rasters& fresh_rasters = outcome.reference.fresh_rasters;
   if (outcome.state == MatchState::kMatched) {
     if (differsFromFresh(outcome, task, fresh_rasters)) outcome.state = MatchState::kRecovered;
@@ -135,11 +142,11 @@ double SubmapMatcher::learn(const SurfaceScan& surfaces, const Pose2& T_odom_bas
                             const MatchOutcome& outcome) {
   if (surfaces.points.size() < kMatch.fewest_points) return 0.0;
   const ReferenceTrace& trace = outcome.reference;
-  if (trace.trusted_rasters) trusted_.rasters = trace.trusted_rasters;
-  if (trace.fresh_rasters) fresh_.rasters = trace.fresh_rasters;
-  if (trusted_.submap.empty()) return addKeyframe(trusted_, surfaces, T_odom_base);
+  if (trace.trusted_rasters) trusted_.keep(trace.trusted_rasters);
+  if (trace.fresh_rasters) fresh_.keep(trace.fresh_rasters);
+  if (trusted_.empty()) return trusted_.add(surfaces, T_odom_base, config_);
   if (trace.is_fresh) {
-    const double added = addKeyframe(fresh_, surfaces, T_odom_base);
+    const double added = fresh_.add(surfaces, T_odom_base, config_);
     if (++fresh_matches_ >= kMatch.trusted_after) {
       trusted_ = std::move(fresh_);
       fresh_ = {};
@@ -147,34 +154,24 @@ double SubmapMatcher::learn(const SurfaceScan& surfaces, const Pose2& T_odom_bas
     return added;
   }
   fresh_matches_ = 0;
-  if (outcome.state == MatchState::kMatched || outcome.state == MatchState::kRecovered) {
-    if (!fresh_.submap.empty()) fresh_ = {};
-    return addKeyframe(trusted_, surfaces, T_odom_base);
+  if (belongsToTrusted(outcome.state)) {
+    fresh_ = {};
+    return trusted_.add(surfaces, T_odom_base, config_);
   }
-  fresh_ = {};
-  return addKeyframe(fresh_, surfaces, T_odom_base);
-}
-
-double SubmapMatcher::addKeyframe(Reference& reference, const SurfaceScan& surfaces,
-                                  const Pose2& T_odom_base) {
-  const Pose2 step = geometry::between(reference.keyframe, T_odom_base);
-  if (!reference.submap.empty() && step.translation().norm() < config_.spacing &&
-      std::abs(step.theta()) < config_.turn_spacing) {
-    return 0.0;
-  }
-  reference.keyframe = T_odom_base;
-  return reference.submap.add(T_odom_base, surfaces, static_cast<std::size_t>(config_.keyframes));
+  // A scanner whose view the second reference lacks says nothing against it.
+  if (fresh_.isSeenBy(surfaces.scanner)) fresh_ = {};
+  return fresh_.add(surfaces, T_odom_base, config_);
 }
 
 SubmapMatcher::Attempt SubmapMatcher::matchWith(const Reference& reference,
                                                 const Task& task) const {
-  if (task.surfaces.points.size() < kMatch.fewest_points) return {{}, reference.rasters};
+  if (task.surfaces.points.size() < kMatch.fewest_points) return {{}, reference.rasters()};
   std::vector<Hypothesis> hypotheses;
   if (task.window.isWithin(kMatch.moderate * kMatch.narrow_position,
                            kMatch.moderate * kMatch.narrow_heading)) {
-    hypotheses.push_back(refine(reference.submap, task, task.window.centre, kMatch.local_scale));
+    hypotheses.push_back(refine(reference.submap(), task, task.window.centre, kMatch.local_scale));
     if (isBeyondDoubt(hypotheses.back(), task)) {
-      return {conclude(hypotheses, task), reference.rasters};
+      return {conclude(hypotheses, task), reference.rasters()};
     }
   }
   return matchWidely(reference, task, std::move(hypotheses));
@@ -193,7 +190,7 @@ bool SubmapMatcher::isBeyondDoubt(const Hypothesis& local, const Task& task) {
 SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, const Task& task,
                                                   std::vector<Hypothesis> hypotheses) const {
   const Task wide = widened(task);
-  const Rasters rasters = rastersAbout(reference, task.window.centre.translation());
+  const Rasters rasters = reference.rastersAbout(task.window.centre.translation());
   const std::size_t most = isNarrow(task.window) ? kMatch.narrow_candidates : kMatch.candidates;
   const SearchResult found = searchRasters(task.surfaces.points, *rasters, wide.window, most);
   std::vector<Hypothesis> candidates;
@@ -204,7 +201,7 @@ SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, co
         });
     if (known) continue;
     candidates.push_back(
-        refine(reference.submap, wide, candidate.T_odom_base, kMatch.search_scale));
+        refine(reference.submap(), wide, candidate.T_odom_base, kMatch.search_scale));
   }
   for (Hypothesis& candidate : candidates) hypotheses.push_back(std::move(candidate));
   MatchOutcome outcome = conclude(hypotheses, task);
@@ -222,14 +219,6 @@ SubmapMatcher::Task SubmapMatcher::widened(const Task& task) {
   wide.prior.covariance +=
       Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
   return wide;
-}
-
-SubmapMatcher::Rasters SubmapMatcher::rastersAbout(const Reference& reference,
-                                                   const Eigen::Vector2d& centre_odom) {
-  if (reference.rasters && reference.rasters->show(reference.submap, centre_odom)) {
-    return reference.rasters;
-  }
-  return std::make_shared<SearchRasters>(reference.submap, centre_odom);
 }
 
 SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Task& task,
@@ -283,6 +272,7 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const 
   outcome.motion_gradient = best.match.motion_gradient / (factor * factor);
   outcome.common = residuals.common();
   outcome.inliers = best.evidence.inliers;
+  outcome.known = best.evidence.known;
   outcome.cost = best.evidence.cost;
   const bool predicted = isNarrow(task.window) && isNear(outcome.T_odom_base, task.prior);
   const bool is_taken = isClear(best, predicted) || isAlone(hypotheses);

@@ -13,9 +13,6 @@ using geometry::Pose2;
 
 namespace {
 
-// Scans of others are not compared with what this scanner has seen.
-constexpr std::size_t kOdometryScanner = 0;
-
 // Uncertainty of the motion over a break in the odometry, or while the clock is set [m, rad].
 constexpr double kBridgedPosition = 0.1;
 constexpr double kBridgedHeading = 0.1;
@@ -36,6 +33,12 @@ void flagBreak(tracking::TrackerUpdate& update) {
   if (update.state == tracking::TrackerState::kTracking) {
     update.state = tracking::TrackerState::kDegraded;
   }
+}
+
+// Scans and odometry turn apart: one of them is mirrored.
+void flagTurns(dead_reckoning::DeadReckoningUpdate& update) {
+  using dead_reckoning::MatchState;
+  if (update.state == MatchState::kMatched) update.state = MatchState::kAmbiguous;
 }
 
 }  // namespace
@@ -103,14 +106,29 @@ void Estimators::removeFloor(LocatedScan& located) const {
   located.scan = motion::without(motion::levelled(located.scan, *located.attitude), on_floor);
 }
 
+// One scanner of unknown mounting is taken for the base, until one is known.
+bool Estimators::isPlaced(const LocatedScan& located) {
+  if (located.T_base_sensor) {
+    // The poses found so far were of the scanner, not of the base.
+    if (!is_mounting_known_) odometry_->reset();
+    is_mounting_known_ = true;
+    return true;
+  }
+  if (is_mounting_known_) return false;
+  if (!taken_for_base_) taken_for_base_ = located.scanner;
+  return *taken_for_base_ == located.scanner;
+}
+
 void Estimators::reckon(Estimates& estimates) {
   LocatedScan& located = estimates.located;
-  const bool is_known = located.T_base_sensor.has_value();
-  if (located.scanner != kOdometryScanner || (is_mounting_known_ && !is_known)) return;
-  // The poses found so far were of the scanner, not of the base.
-  if (is_known && !is_mounting_known_) odometry_->reset();
-  is_mounting_known_ = is_known;
+  if (!isPlaced(located)) {
+    odometry_->passOver(located);
+    estimates.no_odometry = located.no_odometry;
+    return;
+  }
   estimates.odometry = odometry_->update(located);
+  if (!estimates.odometry) estimates.no_odometry = odometry_->whyNone();
+  if (estimates.odometry && located.turns_opposite) flagTurns(*estimates.odometry);
   if (!odometry_->beamsOnFloor().empty()) {
     located.scan = motion::without(located.scan, odometry_->beamsOnFloor());
   }
@@ -160,7 +178,7 @@ void Estimators::track(Estimates& estimates) {
   estimates.rooms = rooms_->update(located.scan, T_path_base, *located.T_base_sensor);
   if (!estimates.rooms) return;
   estimates.rooms->T_map_odom = estimates.rooms->pose.mean * located.T_odom_base->inverse();
-  if (located.odometry_broke) flagBreak(*estimates.rooms);
+  if (located.odometry_broke || located.turns_opposite) flagBreak(*estimates.rooms);
 }
 
 }  // namespace sightline::pipeline

@@ -16,7 +16,7 @@ constexpr std::int64_t kLongestBurst = 10'000'000'000;
 
 ScanFeed::ScanFeed(const FeedConfig& config, const Frames& frames, const FeedNeeds& needs,
                    const Transforms& transforms)
-    : config_(config), locator_(config, frames, needs, transforms) {
+    : config_(config), needs_(needs), locator_(config, frames, needs, transforms) {
   config::validate(config);
 }
 
@@ -101,6 +101,7 @@ void ScanFeed::enqueue(ArrivedScan arrived) {
   Scanner& scanner = scanners_[arrived.scanner];
   ++scanner.counts.arrived;
   scanner.clock.add(arrived.scan.stamp);
+  scanner.schedule.add(arrived.scan.stamp, arrived.arrival);
   arrived.elapsed = scanner.clock.sinceBefore();
   auto place = waiting_.end();
   while (place != waiting_.begin() && goesBefore(arrived, *std::prev(place))) --place;
@@ -163,6 +164,7 @@ std::optional<FeedResult> ScanFeed::next(std::int64_t now) {
   const double waited = 1e-9 * static_cast<double>(now - waiting_.front().arrival);
   // A scan of the new time behind it: what it waits for will not come any more.
   const bool is_over = isSetBack(waiting_.back()) && waiting_.size() > 1;
+  if (!is_over && needs_.odometry && isPreceded(waiting_.front(), now)) return std::nullopt;
   return settle(
       {!is_over && waited < config_.patience, !is_over && waited < config_.start_patience});
 }
@@ -172,6 +174,16 @@ std::optional<FeedResult> ScanFeed::flush() {
   if (auto dropped = nextDropped()) return dropped;
   if (waiting_.empty()) return std::nullopt;
   return settle({false, false});
+}
+
+// Tells whether another scanner is about to bring a scan with an earlier stamp.
+bool ScanFeed::isPreceded(const ArrivedScan& arrived, std::int64_t now) const {
+  for (std::size_t i = 0; i < scanners_.size(); ++i) {
+    const Scanner& other = scanners_[i];
+    if (i == arrived.scanner || other.clock.isOfArrival()) continue;
+    if (other.schedule.awaits(arrived.scan.stamp, now)) return true;
+  }
+  return false;
 }
 
 bool ScanFeed::isSetBack(const ArrivedScan& arrived) const {
@@ -184,6 +196,7 @@ std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
   if (front.begins_new_time || isSetBack(front)) {
     front.begins_new_time = false;
     newest_.reset();
+    last_.reset();
     for (Scanner& scanner : scanners_) scanner.before.reset();
     clock_restarted_ = true;
     locator_.restartClock(front.scan.stamp);
@@ -194,7 +207,7 @@ std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
     const bool is_same = front.scan.stamp == *before;
     outcome.reason = is_same ? "the stamp of the scan before it" : "older than the scan before it";
   } else {
-    outcome = locator_.locate(front, patience, before);
+    outcome = locator_.locate(front, patience, last_);
   }
   if (outcome.waits) return std::nullopt;
   const FeedResult result = finish(front, std::move(outcome));
@@ -213,7 +226,13 @@ FeedResult ScanFeed::finish(const ArrivedScan& arrived, ScanLocator::Outcome out
     if (arrived.elapsed) scanner.skipped += arrived.elapsed->usual;
     return drop(arrived, outcome.reason);
   }
+  if (isRepeat(*outcome.located)) {
+    odometry_broke_ |= outcome.located->odometry_broke;
+    return drop(arrived,
+                "the ranges of the scan before it, to the last digit: its driver repeats it");
+  }
   FeedResult result{arrived.scanner, arrived.scan.stamp, std::move(outcome.located), ""};
+  result.located->odometry_broke |= std::exchange(odometry_broke_, false);
   if (const scan::RangeNoise* noise = learnedNoise(arrived.scanner)) result.located->noise = *noise;
   const double skipped = std::exchange(scanner.skipped, 0.0);
   if (const auto& time = arrived.elapsed) {
@@ -224,9 +243,29 @@ FeedResult ScanFeed::finish(const ArrivedScan& arrived, ScanLocator::Outcome out
   if (!result.located->motion_known) ++scanner.counts.without_motion;
   if (result.located->odometry_broke) ++scanner.counts.odometry_broke;
   result.located->clock_restarted = std::exchange(clock_restarted_, false);
+  watchTurns(arrived.head.has_value(), *result.located);
   scanner.before = arrived.scan.stamp;
+  last_ = arrived.scan.stamp;
   newest_ = std::max(newest_.value_or(arrived.scan.stamp), arrived.scan.stamp);
   return result;
+}
+
+bool ScanFeed::isRepeat(const LocatedScan& located) {
+  const auto& T_odom_base = located.T_path_base ? located.T_path_base : located.T_odom_base;
+  return scanners_[located.scanner].repeats.isRepeat(located.scan, learnedNoise(located.scanner),
+                                                     T_odom_base);
+}
+
+void ScanFeed::watchTurns(bool has_head, LocatedScan& located) {
+  Scanner& scanner = scanners_[located.scanner];
+  if (located.turn) heading_ += *located.turn;
+  auto T_odom_base = located.T_path_base;
+  if (!T_odom_base && located.turn) T_odom_base = geometry::Pose2(0.0, 0.0, heading_);
+  if (!T_odom_base || located.odometry_broke || located.clock_restarted) scanner.sense.skip();
+  if (!T_odom_base || has_head) return;
+  scanner.sense.add(located.scan, *T_odom_base, located.T_base_sensor.value_or(geometry::Pose2()));
+  located.turns_opposite = scanner.sense.isOpposite();
+  if (located.turns_opposite) ++scanner.counts.turns_opposite;
 }
 
 }  // namespace sightline::pipeline

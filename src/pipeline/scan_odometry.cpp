@@ -7,50 +7,18 @@
 
 #include "sightline/dead_reckoning/pose_difference.h"
 #include "sightline/pipeline/odometry_bridge.h"
+#include "sightline/pipeline/unknown_tilt.h"
 
 namespace sightline::pipeline {
 
 using dead_reckoning::MotionPrior;
 using geometry::Pose2;
-using motion::FloorConfig;
-
-motion::OdometryNoise WheelsConfig::unmeasured() {
-  motion::OdometryNoise noise;
-  noise.scale_mean = 1.0;
-  noise.scale_sigma = 0.03;
-  noise.distance_sigma = 0.03;
-  noise.lateral_sigma = 0.02;
-  noise.heading_bias_per_metre = 0.0;
-  noise.heading_sigma_per_metre = 0.05;
-  noise.steering_bias = 0.0;
-  noise.steering_sigma = 0.1;
-  return noise;
-}
-
-void WheelsConfig::visit(config::FieldVisitor& visitor) {
-  visitor.group("noise", noise);
-  visitor.number("position_sigma", position_sigma,
-                 {"m", {1e-6, 10.0}, "error of a step whatever its length"});
-  visitor.number("heading_sigma", heading_sigma,
-                 {"rad", {1e-6, 3.2}, "error of a step's turn whatever its size"});
-}
 
 void ScanOdometryConfig::visit(config::FieldVisitor& visitor) {
   matching.visit(visitor);
   visitor.group("wheels", wheels);
   visitor.number("turn_rate_sigma", turn_rate_sigma,
                  {"rad/s", {1e-6, 10.0}, "standard deviation of a gyroscope"});
-}
-
-MotionPrior wheelPrior(const WheelsConfig& config, const Pose2& T_before_now) {
-  const Pose2 step = motion::expectedStep(config.noise, T_before_now, config.noise.scale_mean);
-  MotionPrior prior{step, motion::stepCovariance(config.noise, step)};
-  const double scale = config.noise.scale_sigma / config.noise.scale_mean;
-  prior.covariance.topLeftCorner<2, 2>() +=
-      scale * scale * step.translation() * step.translation().transpose();
-  const Eigen::Vector3d sigmas(config.position_sigma, config.position_sigma, config.heading_sigma);
-  prior.covariance.diagonal() += sigmas.cwiseAbs2();
-  return prior;
 }
 
 namespace {
@@ -97,37 +65,21 @@ scan::Scan evenlyWeighed(const LocatedScan& located) {
   return scan;
 }
 
-// A scanner that nods by α sees what is ahead farther by the factor 1 / cos α. No scan shows that,
-// and it does not add up: the pose errs by it, and a step at both its ends.
-void addUnknownTilt(const FloorConfig& config, const scan::Scan& scan, const Pose2& T_base_sensor,
-                    double elapsed, dead_reckoning::DeadReckoningUpdate& update) {
-  constexpr double kUsualShare = 0.4;  // of the largest tilt
-  const double tilt = kUsualShare * config.max_tilt;
-  const double sigma = 0.5 * tilt * tilt * meanRange(scan);
-  const auto along = [&](double heading) {
-    const Eigen::Vector3d ahead(std::cos(heading), std::sin(heading), 0.0);
-    return Eigen::Matrix3d(sigma * sigma * ahead * ahead.transpose());
-  };
-  const double heading_base = T_base_sensor.theta();
-  update.pose.covariance += along(update.pose.mean.theta() + heading_base);
-  if (elapsed <= 0.0) return;
-  update.step.covariance += 2.0 * along(heading_base);
-  update.twist.covariance += 2.0 / (elapsed * elapsed) * along(heading_base);
-}
-
 }  // namespace
 
 ScanOdometry::ScanOdometry(const ScanOdometryConfig& config,
                            const std::optional<motion::FloorConfig>& floor)
     : config_(config), reckoner_(config.matching), floor_(floor) {
   config::validate(config);
-  if (floor_) finder_.emplace(*floor_);
 }
 
 void ScanOdometry::reset() {
   reckoner_.reset();
-  if (finder_) finder_->forget();
+  finders_.clear();
   before_.reset();
+  first_.reset();
+  in_bursts_.clear();
+  passed_ = {};
   on_floor_.clear();
   is_new_ = true;
   clock_was_set_ = false;
@@ -152,7 +104,7 @@ MotionPrior ScanOdometry::asBefore(double elapsed, double turn) const {
 
 double ScanOdometry::elapsedOf(const LocatedScan& located) const {
   if (!before_) return 0.0;
-  if (located.elapsed) return located.elapsed->usual;
+  if (located.elapsed && before_->scanner == located.scanner) return located.elapsed->usual;
   return 1e-9 * static_cast<double>(located.scan.stamp - before_->stamp);
 }
 
@@ -171,13 +123,13 @@ std::optional<dead_reckoning::Match> ScanOdometry::match(const scan::Scan& scan,
                                                          const Pose2& T_base_sensor) const {
   using dead_reckoning::MatchState;
   const Prior prior = priorOf(located);
-  auto found = reckoner_.match(scan, T_base_sensor, prior, located.elapsed);
+  auto found = reckoner_.match(scan, T_base_sensor, prior, located.elapsed, located.scanner);
   if (!found || !prior) return found;
   const bool has_failed = found->outcome.state == MatchState::kFailed;
   const bool is_expected =
       distanceFrom(*prior, reckoner_.expectedStep(found->elapsed)) < kWheels.gate;
   if (!has_failed && is_expected) return found;
-  auto alone = reckoner_.match(scan, T_base_sensor, {}, located.elapsed);
+  auto alone = reckoner_.match(scan, T_base_sensor, {}, located.elapsed, located.scanner);
   if (alone->outcome.state == MatchState::kFailed) return found;
   const bool explains_more = alone->outcome.cost + kWheels.cost < found->outcome.cost;
   return has_failed || explains_more ? alone : found;
@@ -186,6 +138,8 @@ std::optional<dead_reckoning::Match> ScanOdometry::match(const scan::Scan& scan,
 ScanOdometry::Prior ScanOdometry::priorOf(const LocatedScan& located) const {
   if (!before_) return std::nullopt;
   const double elapsed = elapsedOf(located);
+  // Two scanners at one time: nothing moves in between.
+  if (elapsed <= 0.0) return std::nullopt;
   Prior prior;
   const auto& T_path_base = pathOf(located);
   if (T_path_base && before_->T_path_base && !located.odometry_broke) {
@@ -217,7 +171,51 @@ void ScanOdometry::goOnInNewTime(const LocatedScan& located) {
   before_.reset();
 }
 
+// Tells why a scan of a further scanner cannot be used with those of the first.
+std::string ScanOdometry::faultOf(const LocatedScan& located) {
+  if (!first_) first_ = located.scanner;
+  if (located.elapsed) {
+    in_bursts_.insert(located.scanner);
+  } else {
+    in_bursts_.erase(located.scanner);
+  }
+  if (located.scanner == *first_) return "";
+  if (!in_bursts_.empty()) return "stamps of arrival: its order among several scanners is unknown";
+  const bool is_shared = config_.matching.method == dead_reckoning::Method::kSubmap;
+  return is_shared ? "" : "the method takes one scanner alone";
+}
+
+void ScanOdometry::passOver(const LocatedScan& located) {
+  passed_.any = true;
+  passed_.odometry_broke |= located.odometry_broke;
+  if (passed_.turn && located.turn) *passed_.turn += *located.turn;
+  if (!located.turn) passed_.turn.reset();
+}
+
+LocatedScan ScanOdometry::withPassed(const LocatedScan& located) const {
+  LocatedScan result = located;
+  result.odometry_broke |= passed_.odometry_broke;
+  if (!passed_.turn) result.turn.reset();
+  if (result.turn) *result.turn += *passed_.turn;
+  return result;
+}
+
 std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::update(
+    const LocatedScan& located) {
+  why_none_ = faultOf(located);
+  auto update = !why_none_.empty() ? std::nullopt
+                : passed_.any      ? updateInOrder(withPassed(located))
+                                   : updateInOrder(located);
+  if (update) {
+    passed_ = {};
+    return update;
+  }
+  if (why_none_.empty()) why_none_ = "older than the scan before it";
+  passOver(located);
+  return update;
+}
+
+std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::updateInOrder(
     const LocatedScan& located) {
   if (clock_was_set_) goOnInNewTime(located);
   if (shift_ == 0) return updateInTime(located);
@@ -233,14 +231,15 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::updateInTime(
   if (is_new_) reckoner_.reset(located.T_odom_base.value_or(Pose2()));
   const Pose2 T_base_sensor = located.T_base_sensor.value_or(Pose2());
   on_floor_.clear();
-  const bool looks_for_floor = finder_ && !located.attitude;
+  const bool looks_for_floor = floor_ && !located.attitude;
   const scan::Scan scan = evenlyWeighed(located);
   const auto update = looks_for_floor ? matchLeaning(scan, located, T_base_sensor)
                                       : matchLevel(scan, located, T_base_sensor);
   if (!update) return update;
   is_new_ = false;
-  if (before_) period_ = std::llround(1e9 * elapsedOf(located));
-  before_ = Before{located.scan.stamp, pathOf(located), update->twist};
+  const std::int64_t period = std::llround(1e9 * elapsedOf(located));
+  if (period > 0) period_ = period;
+  before_ = Before{located.scan.stamp, located.scanner, pathOf(located), update->twist};
   return update;
 }
 
@@ -257,13 +256,14 @@ std::optional<dead_reckoning::DeadReckoningUpdate> ScanOdometry::matchLeaning(
     const scan::Scan& scan, const LocatedScan& located, const Pose2& T_base_sensor) {
   auto found = match(scan, located, T_base_sensor);
   if (!found) return std::nullopt;
-  on_floor_ = finder_->find(scan, found->T_odom_base * T_base_sensor);
+  auto& finder = finders_.try_emplace(located.scanner, *floor_).first->second;
+  on_floor_ = finder.find(scan, found->T_odom_base * T_base_sensor);
   if (std::count(on_floor_.begin(), on_floor_.end(), true) > 0) {
     found = match(motion::without(scan, on_floor_), located, T_base_sensor);
   }
   Update update = reckoner_.commit(*found);
-  finder_->remember(scan, update.pose.mean * T_base_sensor);
-  addUnknownTilt(*floor_, scan, T_base_sensor, elapsedOf(located), update);
+  finder.remember(scan, update.pose.mean * T_base_sensor);
+  addUnknownTilt(floor_->max_tilt, scan, T_base_sensor, elapsedOf(located), update);
   return update;
 }
 

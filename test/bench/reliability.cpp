@@ -23,6 +23,7 @@ std::vector<test::RobotInput> allInputs() {
   bench::addOddFields(inputs);
   bench::addMountings(inputs);
   bench::addTopics(inputs);
+  bench::addDrivers(inputs);
   return inputs;
 }
 

@@ -31,7 +31,7 @@ TEST(ErrorState, WithoutAMatchThePoseGoesOnWithTheTwistsError) {
   for (int i = 0; i < kSteps; ++i) {
     const StepPrediction prediction = predictStep(carrier(), twist, kStepTime);
     sigma = std::sqrt(prediction.covariance(0, 0));
-    errors.advance(pose, prediction, prediction.step, kStepTime, {});
+    errors.advance(pose, prediction, {0, pose, prediction.step, kStepTime}, {});
     pose = pose * prediction.step;
   }
   std::mt19937_64 random(1);
@@ -64,7 +64,7 @@ TEST(ErrorState, StaysPositiveDefiniteWhateverIsMeasured) {
     measurement.information(2, 2) += i % 3 == 0 ? 0.0 : 1e6;
     measurement.common = 0.9 * unit(random);
     const Eigen::Matrix3d step =
-        errors.advance(pose, prediction, prediction.step, kStepTime, measurement);
+        errors.advance(pose, prediction, {0, pose, prediction.step, kStepTime}, measurement);
     pose = pose * prediction.step;
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(step).eigenvalues().minCoeff(), 0.0);
     EXPECT_GT(
@@ -81,7 +81,7 @@ TEST(ErrorState, AMatchBoundsTheErrorAgainstTheReference) {
   Pose2 pose;
   for (int i = 0; i < kSteps; ++i) {
     const StepPrediction prediction = predictStep(CarrierConfig(), {0.5, 0.0, 0.3}, kStepTime);
-    errors.advance(pose, prediction, prediction.step, kStepTime, measurement);
+    errors.advance(pose, prediction, {0, pose, prediction.step, kStepTime}, measurement);
     pose = pose * prediction.step;
   }
   EXPECT_LE(errors.againstReference()(0, 0), 1.001e-4);
@@ -101,7 +101,7 @@ TEST(ErrorState, TheErrorOfASweepsMotionIsMatchedAwayByTheNext) {
   Pose2 pose;
   const auto take = [&](const PoseMeasurement& taken) {
     const Eigen::Matrix3d step =
-        errors.advance(pose, prediction, prediction.step, kStepTime, taken);
+        errors.advance(pose, prediction, {0, pose, prediction.step, kStepTime}, taken);
     pose = pose * prediction.step;
     return step;
   };
@@ -126,7 +126,7 @@ TEST(ErrorState, AFirstScansMotionIsInTheStepAwayFromIt) {
   measurement.common = 0.5;
   const StepPrediction prediction = predictStep(CarrierConfig(), {0.5, 0.0, 0.0}, kStepTime);
   const Eigen::Matrix3d step =
-      errors.advance({}, prediction, prediction.step, kStepTime, measurement);
+      errors.advance({}, prediction, {0, {}, prediction.step, kStepTime}, measurement);
   EXPECT_NEAR(step(0, 0), 1e-2, 1e-3);
 }
 

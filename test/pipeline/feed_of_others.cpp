@@ -84,6 +84,32 @@ TEST_F(ScanFeedTest, BridgesABreakAndDropsTheMotionOfItsSweep) {
   EXPECT_EQ(feed_->counts(0).odometry_broke, 1U);
 }
 
+// The second scanner's scans arrive 80 ms after their stamps, after the next one of the first.
+TEST_F(ScanFeedTest, ScansOfSeveralScannersComeInOrderAlsoWhereOneIsLate) {
+  start();
+  transforms_.mount("laser", geometry::Pose2());
+  drive(9.9, 12.0);
+  std::vector<std::int64_t> stamps;
+  const auto deliver = [&](double now) {
+    for (const FeedResult& result : all(now)) stamps.push_back(result.stamp);
+  };
+  double longest = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    const double time = 10.0 + 0.1 * i;
+    feed_->add(0, test::sweep(time, 0.0), at(time));
+    deliver(time);
+    // The second scanner falls silent in the end.
+    if (i > 0 && i < 12) feed_->add(1, test::sweep(time - 0.05, 0.0), at(time + 0.03));
+    deliver(time + 0.03);
+    deliver(time + 0.07);
+    longest = std::max(longest, time - 1e-9 * static_cast<double>(stamps.back()));
+  }
+  EXPECT_EQ(stamps.size(), 27U);
+  const auto in_order = std::is_sorted(stamps.begin() + 4, stamps.end());
+  EXPECT_TRUE(in_order);
+  EXPECT_LT(longest, 0.15) << "a scanner that is gone is not waited for";
+}
+
 TEST_F(ScanFeedTest, OdometryThatLeapsInTimeIsLeftOut) {
   start();
   const auto add = [this](double stamp, double now) {

@@ -17,6 +17,12 @@
 
 namespace sightline::bridge {
 
+/// What is said of a scanner whose scans turn against the odometry.
+inline constexpr const char* kTurnsOpposite =
+    "its scans turn against the odometry: the beams run in the other sense than angle_increment "
+    "says, "
+    "or the odometry counts turns the wrong way";
+
 /// Puts messages into a feed, live and from a bag alike.
 class FeedInput {
  public:

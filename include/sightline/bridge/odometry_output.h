@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +19,7 @@ class OdometryOutput {
  public:
   OdometryOutput(Output& output, const pipeline::Frames& frames, bool publish_tf);
 
-  /// Returns why there is none for this scan; empty where there is one, and for scanners that it is
-  /// not from.
+  /// Returns why there is none for this scan; empty where there is one.
   std::string write(const pipeline::Estimates& estimates);
 
   /// Number of scans that were matched with this outcome.
@@ -31,6 +32,7 @@ class OdometryOutput {
  private:
   pipeline::Frames frames_;
   bool publish_tf_;
+  std::optional<std::int64_t> sent_;  // stamp of the last transform [ns]
   Port<nav_msgs::Odometry> odometry_;
   Port<tf2_msgs::TFMessage> transforms_;
   std::array<std::size_t, 5> states_{};  // how many scans each state had

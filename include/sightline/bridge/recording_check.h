@@ -58,7 +58,8 @@ class RecordingCheck {
     std::vector<logs::ScanStep> steps;
     logs::Trajectory path;
     std::size_t scans = 0;
-    std::size_t flagged = 0;  // steps that dead reckoning doubts
+    std::size_t flagged = 0;      // steps that dead reckoning doubts
+    bool turns_opposite = false;  // to those of the odometry
   };
 
   Section topicsSection() const;

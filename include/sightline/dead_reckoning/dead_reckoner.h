@@ -13,6 +13,7 @@
 #include "sightline/dead_reckoning/matcher.h"
 #include "sightline/dead_reckoning/motion_habit.h"
 #include "sightline/dead_reckoning/motion_model.h"
+#include "sightline/dead_reckoning/scanner_tracks.h"
 #include "sightline/dead_reckoning/surface_points.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/geometry/twist2.h"
@@ -33,7 +34,7 @@ struct MotionPrior {
 struct DeadReckoningUpdate {
   std::int64_t stamp = 0;           ///< of the scan, ns
   geometry::UncertainPose2 pose;    ///< T_odom_base at the stamp; grows from zero at the first scan
-  geometry::UncertainPose2 step;    ///< T_before_now, from the scan before
+  geometry::UncertainPose2 step;    ///< T_before_now, from the scan before, of whichever scanner
   geometry::UncertainTwist2 twist;  ///< in the base, at the stamp
   MatchState state = MatchState::kInitial;
   std::size_t beams = 0;  ///< that had a valid return
@@ -44,15 +45,17 @@ struct DeadReckoningUpdate {
 
 /// Effect that a scan would have on the pose: a value, to be committed or thrown away.
 struct Match {
-  std::int64_t stamp = 0;       ///< of the scan, ns
-  double elapsed = 0.0;         ///< since the scan before [s]; 0 where there is none
-  double elapsed_sigma = 0.0;   ///< standard deviation of it [s]
-  bool is_first = true;         ///< no scan before it
-  StepPrediction prediction;    ///< of the step from the scan before
-  SurfaceScan surfaces;         ///< corrected by the motion that was found
-  MatchOutcome outcome;         ///< a default one where there is no reference
-  geometry::Pose2 step;         ///< T_before_now; the prediction's where the match failed
-  geometry::Pose2 T_odom_base;  ///< at the stamp, once committed
+  std::int64_t stamp = 0;           ///< of the scan, ns
+  std::size_t scanner = 0;          ///< that took it
+  double elapsed = 0.0;             ///< since the scan before [s]; 0 where there is none
+  std::optional<double> since_own;  ///< since the same scanner's scan before [s]
+  double elapsed_sigma = 0.0;       ///< standard deviation of it [s]
+  bool is_first = true;             ///< no scan before it
+  StepPrediction prediction;        ///< of the step from the scan before
+  SurfaceScan surfaces;             ///< corrected by the motion that was found
+  MatchOutcome outcome;             ///< a default one where there is no reference
+  geometry::Pose2 step;             ///< T_before_now; the prediction's where the match failed
+  geometry::Pose2 T_odom_base;      ///< at the stamp, once committed
   /// Covariance of what the noise of the sensor's motion makes of the pose, or of the surfaces
   /// where the match failed.
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
@@ -66,6 +69,10 @@ struct Match {
 /// carrier is capable of. A sweep whose beams have time
 /// offsets and no sensor_motion is corrected by the motion that is found. The noise of a
 /// sensor_motion is in the covariances. Whatever comes in, estimates stay finite; not thread-safe.
+///
+/// Several scanners: each scan is matched in the order of the stamps with what all of them have
+/// seen (Method::kSubmap), and corrects the one pose. Velocities are found from scan to scan of one
+/// scanner, as between those of two hardly any time may pass.
 class DeadReckoner {
  public:
   /// Throws config::Error if the configuration is out of range.
@@ -75,16 +82,18 @@ class DeadReckoner {
   std::optional<DeadReckoningUpdate> update(const scan::Scan& scan,
                                             const geometry::Pose2& T_base_sensor,
                                             const std::optional<MotionPrior>& prior = {},
-                                            const std::optional<scan::ElapsedTime>& elapsed = {});
+                                            const std::optional<scan::ElapsedTime>& elapsed = {},
+                                            std::size_t scanner = 0);
 
   /// Matches a scan without changing anything. Returns nothing for a scan that is not newer than
-  /// the one before. The mounting has to be level: the scan of a sensor upside down is mirrored
-  /// first, which makes its angles fall.
-  /// @param elapsed  time since the scan before, where the stamps do not tell it; a match that
-  ///                 fails is tried once more with the longest that may have passed
+  /// the same scanner's before, or older than another's. The mounting has to be level: the scan of
+  /// a sensor upside down is mirrored first, which makes its angles fall.
+  /// @param elapsed  time since the same scanner's scan before, where the stamps do not tell it; a
+  ///                 match that fails is tried once more with the longest that may have passed
   std::optional<Match> match(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
                              const std::optional<MotionPrior>& prior = {},
-                             const std::optional<scan::ElapsedTime>& elapsed = {}) const;
+                             const std::optional<scan::ElapsedTime>& elapsed = {},
+                             std::size_t scanner = 0) const;
   /// Takes a match made since the last commit, reset or restart of the clock. Throws
   /// std::invalid_argument for an older one.
   DeadReckoningUpdate commit(const Match& match);
@@ -102,7 +111,10 @@ class DeadReckoner {
   void restartClock();
 
  private:
-  Match begin(const scan::Scan& scan, const std::optional<scan::ElapsedTime>& elapsed) const;
+  Match begin(const scan::Scan& scan, const std::optional<scan::ElapsedTime>& elapsed,
+              std::size_t scanner) const;
+  bool isNewView(const Match& match) const;
+  bool isCertain(const Match& match) const;
   void matchWithin(double elapsed, const CarrierConfig& carrier, const scan::Scan& scan,
                    const geometry::Pose2& T_base_sensor, const std::optional<MotionPrior>& prior,
                    Match& match) const;
@@ -112,9 +124,9 @@ class DeadReckoner {
   void correctSweep(const scan::Scan& scan, const geometry::Pose2& T_base_sensor,
                     const geometry::UncertainPose2& predicted, const SearchWindow& window,
                     Match& match) const;
-  Eigen::Vector3d accelerationTo(const Eigen::Vector3d& twist, double elapsed) const;
   bool isPossible(const geometry::Pose2& T_odom_base, double elapsed) const;
   geometry::UncertainPose2 advance(const Match& match);
+  void follow(const Match& match);
   void learn(const Match& match);
 
   DeadReckonerConfig config_;
@@ -125,7 +137,8 @@ class DeadReckoner {
   ErrorState errors_;
   Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();
   bool moving_ = false;  // whether the twist is known
-  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();
+  ScannerTracks tracks_;
+  double time_ = 0.0;           // since the beginning [s]
   double bridged_ = 0.0;        // time since the last match [s]
   std::uint64_t revision_ = 0;  // another after each change
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include <Eigen/Core>
 
 #include "sightline/dead_reckoning/motion_model.h"
@@ -19,8 +21,16 @@ struct PoseMeasurement {
   double common = 0.0;
 };
 
+/// The motion over which a twist was found: that since the scan before of the same scanner.
+struct TwistInterval {
+  std::size_t scanner = 0;
+  geometry::Pose2 T_odom_base;  ///< at its beginning
+  geometry::Pose2 step;
+  double elapsed = 0.0;  ///< [s]; 0 at a scanner's first scan, which leaves the twist as it was
+};
+
 /// The errors of three things and how they hang together: of the pose in odom, of the pose against
-/// the reference, and of the twist that made the last step. Without a reference in some direction
+/// the reference, and of the twist of the last step. Without a reference in some direction
 /// the pose goes on with the twist's error: it is not a random walk, and grows faster.
 ///
 /// Errors are of the coordinates (x, y, θ), along the axes of odom; that of the twist is in the
@@ -37,8 +47,9 @@ class ErrorState {
   /// and w what the prediction p leaves open, the error e of the pose becomes (1 − K)(p + w) − K v.
   /// Returns the covariance of the step's coordinates in the base before it.
   Eigen::Matrix3d advance(const geometry::Pose2& T_odom_base, const StepPrediction& prediction,
-                          const geometry::Pose2& step, double elapsed,
-                          const PoseMeasurement& measurement);
+                          const TwistInterval& interval, const PoseMeasurement& measurement);
+  /// The next scan of each scanner is taken for its first.
+  void forgetScans();
 
   /// Says what the noise of the sensor's motion did to a scan that nothing was matched with: its
   /// surfaces are displaced as if they had been seen from a pose with this error.
@@ -50,21 +61,33 @@ class ErrorState {
   /// way, and the reference shows them where they are.
   void handOver(double share);
 
-  Eigen::Matrix3d pose() const { return covariance_.block<3, 3>(0, 0); }
-  Eigen::Matrix3d againstReference() const { return covariance_.block<3, 3>(3, 3); }
-  Eigen::Matrix3d twist() const { return covariance_.block<3, 3>(6, 6); }
+  Eigen::Matrix3d pose() const { return block(kPose); }
+  Eigen::Matrix3d againstReference() const { return block(kAgainst); }
+  Eigen::Matrix3d twist() const { return block(kTwist); }
 
  private:
-  using Joint = Eigen::Matrix<double, 9, 9>;
-  using Columns = Eigen::Matrix<double, 9, 3>;
+  static constexpr Eigen::Index kPose = 0;
+  static constexpr Eigen::Index kAgainst = 3;
+  static constexpr Eigen::Index kTwist = 6;
+  static constexpr Eigen::Index kScanners = 9;
 
+  using Joint = Eigen::MatrixXd;
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+  Eigen::Matrix3d block(Eigen::Index place) const { return covariance_.block<3, 3>(place, place); }
+  void makeRoomFor(std::size_t scanner);
   Joint apartFrom(double common) const;
+  void propagate(const Eigen::Matrix<double, 3, Eigen::Dynamic>& moved,
+                 const Eigen::Matrix3d& by_pose, const TwistInterval& interval,
+                 const Eigen::Matrix3d& noise, const Eigen::Matrix3d& motion);
 
-  Joint covariance_ = Joint::Zero();
+  // Three entries each: pose, pose against the reference, twist, and for each scanner the pose
+  // against that at its last scan.
+  Joint covariance_ = Joint::Zero(9, 9);
   // Covariance of the error that the motion within the last sweep made of its pose, and what it has
   // in common with the errors above.
   Eigen::Matrix3d motion_ = Eigen::Matrix3d::Zero();
-  Columns with_motion_ = Columns::Zero();
+  Columns with_motion_ = Columns::Zero(9, 3);
 };
 
 }  // namespace sightline::dead_reckoning

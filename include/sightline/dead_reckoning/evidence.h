@@ -17,8 +17,8 @@ struct Evidence {
 };
 
 /// Weighs a match. A point without a counterpart is no witness against it where the reference did
-/// not see; where it saw free space it is one, and so is a point of the newest keyframe that the
-/// scan looks through.
+/// not see; where it saw free space it is one, and so is a point of the scanner's newest keyframe
+/// that the scan looks through.
 ///
 /// @param profile  of the same sweep
 Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeProfile& profile,

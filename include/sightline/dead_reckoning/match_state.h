@@ -5,9 +5,12 @@
 namespace sightline::dead_reckoning {
 
 enum class MatchState : std::uint8_t {
-  kInitial = 0,    ///< first scan, or first after a reset: nothing to match with
-  kMatched = 1,    ///< the only one besides the first that is not flagged
-  kAmbiguous = 2,  ///< several poses explain the scan as well as this one
+  /// Nothing to match with: the first scan, or the first after a reset; of several scanners, also
+  /// one that looks where nobody has looked while another one holds the pose.
+  kInitial = 0,
+  kMatched = 1,  ///< the only one besides that which is not flagged
+  kAmbiguous =
+      2,  ///< several poses explain the scan as well as this one, or other sensors contradict
   kRecovered = 3,  ///< matched, but the pose before was bridged and turns out to have been wrong
   kFailed = 4,     ///< no pose explains the scan: bridged by the prior
 };

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "sightline/dead_reckoning/dead_reckoner_config.h"
 #include "sightline/dead_reckoning/match_state.h"
 #include "sightline/dead_reckoning/search_window.h"
 #include "sightline/dead_reckoning/surface_points.h"
@@ -38,6 +39,7 @@ struct MatchOutcome {
   Eigen::Matrix3d motion_gradient = Eigen::Matrix3d::Zero();
   MatchState state = MatchState::kFailed;
   double inliers = 0.0;         ///< share of the points, [0, 1]
+  double known = 1.0;           ///< share of the points where the reference says what there is
   double cost = 1.0;            ///< share of the scan that is left unexplained, [0, 1] and beyond
   std::size_t evaluations = 0;  ///< poses that were compared; bounded whatever the settings
   ReferenceTrace reference;
@@ -60,5 +62,8 @@ class Matcher {
                        const MatchOutcome& outcome) = 0;
   virtual void clear() = 0;
 };
+
+/// The matcher of the configured method. Throws config::Error if the configuration is out of range.
+std::unique_ptr<Matcher> makeMatcher(const DeadReckonerConfig& config);
 
 }  // namespace sightline::dead_reckoning

@@ -23,6 +23,7 @@ struct Surfel {
 
 /// A scan of the reference.
 struct Keyframe {
+  std::size_t scanner = 0;  // that took it
   geometry::Pose2 T_odom_base;
   Eigen::Matrix2d R_base_odom;
   std::vector<SurfacePoint> points;  // in its base
@@ -46,6 +47,8 @@ class Submap {
 
   /// Oldest first.
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
+  /// The newest that a scanner took; null where there is none.
+  const Keyframe* newestOf(std::size_t scanner) const;
   /// Sight of a place [m, odom] by the newest keyframe that knows it, among the newest 50.
   Sight sightOf(const Eigen::Vector2d& point) const;
   const std::vector<Surfel>& surfels() const { return surfels_; }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "sightline/dead_reckoning/correlative_search.h"
@@ -9,6 +8,7 @@
 #include "sightline/dead_reckoning/line_matcher.h"
 #include "sightline/dead_reckoning/matcher.h"
 #include "sightline/dead_reckoning/range_profile.h"
+#include "sightline/dead_reckoning/reference.h"
 #include "sightline/dead_reckoning/submap.h"
 
 namespace sightline::dead_reckoning {
@@ -18,12 +18,13 @@ namespace sightline::dead_reckoning {
 /// are compared by what speaks for and against them.
 ///
 /// A scan that fits nowhere begins a second reference; the first is given up when a few scans in a
-/// row fit the second alone.
+/// row fit the second alone. Scans of several scanners, in one base, share the references: what one
+/// of them sees is matched with what any has seen.
 class SubmapMatcher : public Matcher {
  public:
   explicit SubmapMatcher(const SubmapConfig& config) : config_(config) {}
 
-  bool hasReference() const override { return !trusted_.submap.empty(); }
+  bool hasReference() const override { return !trusted_.empty(); }
   MatchOutcome match(const SurfaceScan& surfaces, const geometry::UncertainPose2& prior,
                      const SearchWindow& window) const override;
   double learn(const SurfaceScan& surfaces, const geometry::Pose2& T_odom_base,
@@ -31,16 +32,10 @@ class SubmapMatcher : public Matcher {
   void clear() override;
 
  private:
-  using Rasters = std::shared_ptr<const SearchRasters>;
+  using Rasters = Reference::Rasters;
   struct Hypothesis {
     LineMatch match;
     Evidence evidence;
-  };
-  /// A reference, and where it was last added to.
-  struct Reference {
-    Submap submap;
-    Rasters rasters;
-    geometry::Pose2 keyframe;
   };
   /// A scan and what is known of its pose.
   struct Task {
@@ -59,15 +54,12 @@ class SubmapMatcher : public Matcher {
   Attempt matchWidely(const Reference& reference, const Task& task,
                       std::vector<Hypothesis> hypotheses) const;
   static Task widened(const Task& task);
-  static Rasters rastersAbout(const Reference& reference, const Eigen::Vector2d& centre_odom);
   bool differsFromFresh(const MatchOutcome& outcome, const Task& task, Rasters& rasters) const;
   Hypothesis refine(const Submap& submap, const Task& task, const geometry::Pose2& start,
                     double scale) const;
   MatchOutcome conclude(std::vector<Hypothesis>& hypotheses, const Task& task) const;
   bool isClear(const Hypothesis& hypothesis, bool predicted) const;
   static bool isAlone(const std::vector<Hypothesis>& hypotheses);
-  double addKeyframe(Reference& reference, const SurfaceScan& surfaces,
-                     const geometry::Pose2& T_odom_base);
 
   SubmapConfig config_;
   Reference trusted_;

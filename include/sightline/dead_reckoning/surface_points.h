@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,6 +31,7 @@ struct Sighting {
 
 /// Surfaces around, as one scan shows them.
 struct SurfaceScan {
+  std::size_t scanner = 0;                           ///< that took it
   std::vector<SurfacePoint> points;                  ///< of the valid beams, in their order
   Eigen::Vector2d sensor = Eigen::Vector2d::Zero();  ///< in the base, at the stamp [m]
   double beam_angle = 0.0;                           ///< from one beam to the next [rad]

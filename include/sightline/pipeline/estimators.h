@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sightline/geometry/arc.h"
@@ -26,8 +27,8 @@ struct EstimatorSet {
 };
 
 /// Results of the estimators for one scan; nothing of those that do not run, or refused it.
-/// Odometry comes from the first scanner alone, and not from a frame of unknown mounting once its
-/// mounting has been known.
+/// Odometry comes from all scanners, but not from a frame of unknown mounting once a mounting has
+/// been known.
 struct Estimates {
   LocatedScan located;  ///< as the estimators saw it: without floor, motion filled in
   std::optional<Lines> lines;
@@ -36,6 +37,7 @@ struct Estimates {
   std::optional<std::vector<geometry::Feature>> features;
   std::optional<tracking::TrackerUpdate> rooms;
   std::optional<dead_reckoning::DeadReckoningUpdate> odometry;
+  std::string no_odometry;  ///< why there is none, where it runs
 };
 
 /// Runs the estimators on located scans and hands values from one to another: the floor that the
@@ -63,6 +65,7 @@ class Estimators {
 
   void restartRooms(const LocatedScan& located);
   void removeFloor(LocatedScan& located) const;
+  bool isPlaced(const LocatedScan& located);
   void reckon(Estimates& estimates);
   void addMotion(Estimates& estimates) const;
   void extract(Estimates& estimates);
@@ -77,7 +80,8 @@ class Estimators {
   std::optional<ScanFeatures> features_;
   std::optional<geometry::Pose2> T_odom_base_;  // by wheels, at the last scan
   bool rooms_restart_ = false;                  // the clock was set since that scan
-  bool is_mounting_known_ = false;              // of the scans that the odometry took
+  bool is_mounting_known_ = false;              // of a scan that the odometry took
+  std::optional<std::size_t> taken_for_base_;   // scanner of unknown mounting
 };
 
 }  // namespace sightline::pipeline

@@ -29,12 +29,15 @@ struct LocatedScan {
   std::optional<geometry::Pose2> T_odom_base;  ///< by wheels, at the stamp
   /// The same in a frame of its own, in which the breaks of the odometry are bridged.
   std::optional<geometry::Pose2> T_path_base;
-  bool odometry_broke = false;  ///< since the scan before: it was reset, or leaped
+  bool odometry_broke = false;  ///< since the scan before, of whichever scanner: reset, or leaped
+  /// Whether the turns of this scanner's scans are opposite to the odometry's (TurnSense).
+  bool turns_opposite = false;
   std::string
       no_odometry;  ///< why T_base_sensor or T_odom_base are not known; empty where both are
   bool before_odometry =
-      false;                   ///< whether that is since the scan is from before the odometry began
-  std::optional<double> turn;  ///< by a gyroscope, since the scan before [rad]
+      false;  ///< whether that is since the scan is from before the odometry began
+  /// By a gyroscope, since the scan before, of whichever scanner [rad].
+  std::optional<double> turn;
   std::optional<motion::SweepAttitude> attitude;  ///< of the sensor, by an inertial sensor
   /// The clock was set before this scan: its stamp says nothing of the time since the one before.
   bool clock_restarted = false;

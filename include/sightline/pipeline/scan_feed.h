@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "sightline/pipeline/repeat_watch.h"
 #include "sightline/pipeline/scan_clock.h"
 #include "sightline/pipeline/scan_locator.h"
+#include "sightline/pipeline/scan_schedule.h"
 #include "sightline/pipeline/stamp_watch.h"
+#include "sightline/pipeline/turn_sense.h"
 #include "sightline/scan/learned_noise.h"
 #include "sightline/scan/miss_value.h"
 #include "sightline/scan/turn_gatherer.h"
@@ -30,6 +33,7 @@ struct FeedCounts {
   std::size_t arrived = 0;
   std::size_t located = 0;
   std::size_t odometry_broke = 0;  ///< located, after a break in the odometry
+  std::size_t turns_opposite = 0;  ///< located, while turns are opposite to the odometry's
   std::size_t without_motion = 0;  ///< located, but the motion within the sweep is not known
   std::map<std::string, std::size_t> dropped;  ///< by reason
 };
@@ -37,7 +41,8 @@ struct FeedCounts {
 /// Takes scans as they arrive and gives them back, those that wait in the order of their stamps and
 /// each scanner's own always so, completed by transforms, odometry and an inertial sensor, or with
 /// the reason why it is not used. A scan waits for what belongs to it as long as the settings'
-/// patience lasts. A scanner whose stamps are those of arrival keeps the order of arrival.
+/// patience lasts. A scanner whose stamps are those of arrival keeps the order of arrival. Of
+/// several scanners, a scan waits for one that is about to come late with an earlier stamp.
 ///
 /// A stamp that leaps against the ones before it is left out, unless those after it go on from
 /// there: then the clock was set, and the scans of the new time are used.
@@ -83,6 +88,9 @@ class ScanFeed {
     scan::MissValue misses;
     scan::LearnedNoise noise;
     ScanClock clock;
+    ScanSchedule schedule;
+    RepeatWatch repeats;
+    TurnSense sense;
     double skipped = 0.0;  // time of scans that were dropped since the last one, by the clock [s]
     std::optional<std::int64_t> before;  // stamp of its last scan that was located
   };
@@ -92,14 +100,18 @@ class ScanFeed {
   void take(ArrivedScan arrived);
   void enqueue(ArrivedScan arrived);
   bool isOnlyLate(const ArrivedScan& arrived) const;
+  bool isPreceded(const ArrivedScan& arrived, std::int64_t now) const;
   bool goesBefore(const ArrivedScan& arrived, const ArrivedScan& other) const;
   std::optional<FeedResult> nextDropped();
   std::optional<FeedResult> settle(const Patience& patience);
   FeedResult finish(const ArrivedScan& arrived, ScanLocator::Outcome outcome);
+  bool isRepeat(const LocatedScan& located);
+  void watchTurns(bool has_head, LocatedScan& located);
   FeedResult drop(const ArrivedScan& arrived, const std::string& reason);
   bool isSetBack(const ArrivedScan& arrived) const;
 
   FeedConfig config_;
+  FeedNeeds needs_;
   ScanLocator locator_;
   StampWatch odometry_stamps_;
   StampWatch imu_stamps_;
@@ -107,7 +119,10 @@ class ScanFeed {
   std::deque<FeedResult> dropped_;      // before they came to wait
   std::deque<ArrivedScan> waiting_;     // in the order of their stamps
   std::optional<std::int64_t> newest_;  // stamp of the newest scan that was located
+  std::optional<std::int64_t> last_;    // stamp of the last one
   bool clock_restarted_ = false;        // and no scan has been located since
+  bool odometry_broke_ = false;         // before a scan that was dropped
+  double heading_ = 0.0;                // by the gyroscope [rad]
 };
 
 }  // namespace sightline::pipeline

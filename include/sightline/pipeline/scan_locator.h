@@ -43,7 +43,7 @@ class ScanLocator {
   /// The clock was set back to about this time: forgets what is from later.
   void restartClock(std::int64_t stamp);
 
-  /// @param before  stamp of the same scanner's scan before, where there is one [ns]
+  /// @param before  stamp of the scan before, of whichever scanner, where there is one [ns]
   Outcome locate(const ArrivedScan& arrived, const Patience& patience,
                  std::optional<std::int64_t> before);
 

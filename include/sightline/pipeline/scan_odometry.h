@@ -2,28 +2,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "sightline/dead_reckoning/dead_reckoner.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/motion/floor_finder.h"
-#include "sightline/motion/odometry_noise.h"
 #include "sightline/pipeline/located_scan.h"
+#include "sightline/pipeline/wheel_prior.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::pipeline {
-
-/// Noise of wheels that nobody has measured. The two sigmas come on top, once a scan: what wheels
-/// report of a moment is late or rounded.
-struct WheelsConfig {
-  motion::OdometryNoise noise = unmeasured();
-  double position_sigma = 0.02;  ///< [m]
-  double heading_sigma = 0.01;   ///< [rad]
-
-  void visit(config::FieldVisitor& visitor);
-  static motion::OdometryNoise unmeasured();
-};
 
 struct ScanOdometryConfig {
   dead_reckoning::DeadReckonerConfig matching;
@@ -37,6 +29,10 @@ struct ScanOdometryConfig {
 /// which is left out of a step that no carrier makes or that the scans explain better without it,
 /// and for a scanner that leans the beams that ended on floor or ceiling, which are left out.
 ///
+/// Scans of several scanners, in the order of their stamps, make one odometry. Those of the first
+/// alone are used where that order is not known, as stamps are those of arrival, and by methods
+/// whose reference is one scan.
+///
 /// The frame odom is that of the wheels where they are known at the first scan, otherwise the
 /// base's pose at that scan. Not thread-safe.
 class ScanOdometry {
@@ -49,9 +45,13 @@ class ScanOdometry {
                         const std::optional<motion::FloorConfig>& floor = {});
 
   /// Takes one scan; a sensor of unknown mounting is taken for the base. Nothing for one that is
-  /// not newer than the one before. The update's `step` holds the turn between the scans, with its
+  /// left out (whyNone). The update's `step` holds the turn between the scans, with its
   /// covariance, for others to use.
   std::optional<dead_reckoning::DeadReckoningUpdate> update(const LocatedScan& located);
+  /// Why the last scan got no update.
+  const std::string& whyNone() const { return why_none_; }
+  /// Keeps what a scan that is not used tells of the time since the one before it.
+  void passOver(const LocatedScan& located);
   /// Starts anew at the next scan.
   void reset();
   /// The clock was set. Where the wheels tell that the carrier is still there, the odometry goes on
@@ -66,12 +66,22 @@ class ScanOdometry {
  private:
   struct Before {
     std::int64_t stamp = 0;
+    std::size_t scanner = 0;
     std::optional<geometry::Pose2> T_path_base;  // by the wheels
     geometry::UncertainTwist2 twist;
+  };
+  /// Turn and breaks since the last scan that was used, as told with scans that were not.
+  struct Passed {
+    bool any = false;
+    std::optional<double> turn = 0.0;  // nothing where one of them did not know it
+    bool odometry_broke = false;
   };
   using Update = dead_reckoning::DeadReckoningUpdate;
   using Prior = std::optional<dead_reckoning::MotionPrior>;
 
+  std::string faultOf(const LocatedScan& located);
+  LocatedScan withPassed(const LocatedScan& located) const;
+  std::optional<Update> updateInOrder(const LocatedScan& located);
   double elapsedOf(const LocatedScan& located) const;
   static const std::optional<geometry::Pose2>& pathOf(const LocatedScan& located);
   std::optional<Update> updateInTime(const LocatedScan& located);
@@ -89,17 +99,17 @@ class ScanOdometry {
   ScanOdometryConfig config_;
   dead_reckoning::DeadReckoner reckoner_;
   std::optional<motion::FloorConfig> floor_;
-  std::optional<motion::FloorFinder> finder_;  // of a scanner that leans
+  std::map<std::size_t, motion::FloorFinder> finders_;  // of scanners that lean
   std::optional<Before> before_;
+  std::optional<std::size_t> first_;  // scanner that came first
+  std::set<std::size_t> in_bursts_;   // scanners whose last stamp was that of an arrival
+  Passed passed_;
+  std::string why_none_;
   bool is_new_ = true;
   bool clock_was_set_ = false;
   std::int64_t shift_ = 0;   // from the stamps to the time of the reckoner [ns]
   std::int64_t period_ = 0;  // between the last two scans [ns]
   std::vector<bool> on_floor_;
 };
-
-/// The step of the wheels between two scans as a prior.
-dead_reckoning::MotionPrior wheelPrior(const WheelsConfig& config,
-                                       const geometry::Pose2& T_before_now);
 
 }  // namespace sightline::pipeline

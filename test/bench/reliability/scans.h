@@ -120,6 +120,16 @@ inline void addMountings(std::vector<RobotInput>& inputs) {
   inputs.push_back(named("slashes, backward", test::withSlashes(true)));
 }
 
+inline void addDrivers(std::vector<RobotInput>& inputs) {
+  inputs.push_back(named("beams in the opposite sense", test::mirroredScans()));
+  inputs.push_back(named("beams in the opposite sense, odometry on a topic",
+                         test::onTopic(test::mirroredScans())));
+  for (const double length : {0.5, 2.0, 5.0}) {
+    inputs.push_back(named(fmt::format("one scan repeated for {} s", length),
+                           test::repeatedScans(8.0, 8.0 + length)));
+  }
+}
+
 inline void addTopics(std::vector<RobotInput>& inputs) {
   for (const int parts : {2, 3, 12, 36}) {
     inputs.push_back(named(fmt::format("turns in {} parts", parts), test::partialSweeps(parts)));
