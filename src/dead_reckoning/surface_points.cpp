@@ -187,13 +187,26 @@ class SurfaceFinder {
     point.reach = 0.5 * beam_angle_ * away;
   }
 
-  // Tells whether the ranges rise, or fall, on both sides of a point.
+  // Tells whether the ranges rise, or fall, on both sides of a point. Where the beam on one side
+  // met nothing, the wall may go on there out of reach: the last return of a wall down a corridor
+  // goes with the robot, and would hold it back as a thing that faces it.
   bool isOnSlope(std::size_t i, double away) const {
     if (i == 0 || i + 1 == points_.size()) return false;
     const double least = kSurface.lone_sigmas * std::sqrt(points_[i].variance);
     const double before = away - range(i - 1);
     const double after = range(i + 1) - away;
+    if (!isNext(i)) return isNext(i + 1) && after < -least;
+    if (!isNext(i + 1)) return before > least;
     return std::min(std::abs(before), std::abs(after)) > least && before * after > 0.0;
+  }
+
+  // Tells whether a point is by the beam next to that of the one before.
+  bool isNext(std::size_t i) const {
+    const Eigen::Vector2d here = points_[i].position - sensor_;
+    const Eigen::Vector2d before = points_[i - 1].position - sensor_;
+    const double turn =
+        std::abs(std::atan2(before.x() * here.y() - before.y() * here.x(), before.dot(here)));
+    return turn < 1.5 * beam_angle_;
   }
 
   Eigen::Vector2d sensor_;

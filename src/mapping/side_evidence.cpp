@@ -10,7 +10,8 @@ namespace {
 using geometry::Pose2;
 
 constexpr struct {
-  double near = 0.08;     // a point this near is on the side [m]
+  double near = 0.05;     // a point this near is on the side [m]
+  double before = 0.3;    // a surface so far before it that faces as it does hides it [m]
   double beyond = 0.15;   // a ray that ends this far beyond has passed through [m]
   double facing = 0.8;    // least cosine between the normals of point and side
   double bridged = 0.2;   // gap that nobody saw, between walls [m]
@@ -30,11 +31,12 @@ struct Target {
     const double before = normal.dot(eye - start);
     if (before <= 0.0) return;
     const double after = normal.dot(end - start);
-    if (after > kEvidence.near) return;
+    if (after > kEvidence.before) return;
     if (after >= -kEvidence.near) {
       const double along = direction.dot(end - start);
       if (along < 0.0 || along > length || facing.dot(normal) < kEvidence.facing) return;
-      ++evidence->hits[evidence->binAt(along)];
+      auto& met = after <= kEvidence.near ? evidence->hits : evidence->hidden;
+      ++met[evidence->binAt(along)];
     } else if (after < -kEvidence.beyond) {
       const Eigen::Vector2d crossing = eye + before / (before - after) * (end - eye);
       const double along = direction.dot(crossing - start);
@@ -55,7 +57,7 @@ std::vector<Target> targetsOf(const std::vector<RoomOutline>& rooms,
       SideEvidence& here = evidence[r][i];
       const auto bins = static_cast<std::size_t>(std::ceil(side.length() / SideEvidence::kBin));
       here.hits.assign(std::max<std::size_t>(1, bins), 0);
-      here.passes = here.hits;
+      here.passes = here.hidden = here.hits;
       targets.push_back({side.start, side.leftNormal(), side.direction(), side.length(), &here});
     }
   }

@@ -11,6 +11,7 @@
 #include "path_problem.h"
 #include "pose_factors.h"
 #include "side_sightings.h"
+#include "sightline/mapping/side_aim.h"
 
 namespace sightline::mapping {
 
@@ -218,6 +219,7 @@ void adjustWalls(const std::vector<KeyScan>& keys, AdjustedPath& path,
     for (const SideSighting& sighting : sightings) problem.add(sighting);
     problem.solve();
     problem.store(path, rooms);
+    if (gate != *std::rbegin(kWalls.gates)) aimSides(keys, path.keys, found, rooms);
     if (gate == *std::rbegin(kWalls.gates)) problem.storeCovariances(rooms);
   }
 }

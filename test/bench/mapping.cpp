@@ -13,7 +13,8 @@
 // mapping.fr079.poses.*: the adjusted path of the Freiburg log, with its wheels repaired, against
 // its hand-verified relations; mapping.fr079_laser_only.poses.*: without wheels;
 // mapping.intel_part.poses.*. mapping.fr079.*: the rooms fitted to that log, tracked on the same
-// log; fr079_split: fitted to the first half, tracked on the second where it is in the same rooms.
+// log; fr079_split: fitted to the first half, the second where it is in the same rooms;
+// fr079_laser_only: fitted and tracked without wheels.
 // mapping.seconds, mapping.peak_mb: reading it and fitting rooms, processor time.
 #include <algorithm>
 #include <cmath>

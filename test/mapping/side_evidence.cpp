@@ -10,6 +10,8 @@ SideEvidence evidence(const std::string& bins) {
   for (const char bin : bins) {
     evidence.hits.push_back(bin == '#' ? 9 : 0);
     evidence.passes.push_back(bin == '.' ? 9 : 0);
+    evidence.hidden.push_back(bin == '=' ? 12 : 0);
+    if (bin == '=') evidence.hits.back() = 5;
   }
   return evidence;
 }
@@ -27,6 +29,13 @@ TEST(SpansOf, BridgeALittleThatNobodySaw) {
   EXPECT_EQ(spansOf(evidence("####???####"), 0.55).size(), 1U);
   EXPECT_EQ(spansOf(evidence("####.######"), 0.55).size(), 2U);
   EXPECT_EQ(spansOf(evidence("#####???????#####"), 0.85).size(), 2U);
+}
+
+TEST(SpansOf, LeaveOutWhatMostlyShowsAThingBeforeTheWall) {
+  const auto spans = spansOf(evidence("#####======#####"), 0.8);
+  ASSERT_EQ(spans.size(), 2U);
+  EXPECT_NEAR(spans[0].to, 0.25, 1e-9);
+  EXPECT_NEAR(spans[1].from, 0.55, 1e-9);
 }
 
 TEST(SpansOf, ShortPiecesAreNoWall) {

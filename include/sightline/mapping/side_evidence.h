@@ -14,8 +14,13 @@ struct SideEvidence {
   static constexpr double kBin = 0.05;  ///< [m]
   std::vector<int> hits;                ///< rays that ended on it
   std::vector<int> passes;              ///< rays that went through it from inside
+  std::vector<int> hidden;  ///< rays that ended on a surface close before it which faces as it does
 
-  bool isWall(std::size_t bin) const { return hits[bin] >= 2 && hits[bin] >= passes[bin]; }
+  /// Whether it stands there, and shows itself more often than what stands before it: a tracker
+  /// would take that for the wall.
+  bool isWall(std::size_t bin) const {
+    return hits[bin] >= 2 && hits[bin] >= passes[bin] && hits[bin] >= hidden[bin];
+  }
   bool isOpen(std::size_t bin) const { return passes[bin] >= 2 && passes[bin] > hits[bin]; }
   std::size_t bins() const { return hits.size(); }
   /// Bin of a place along the side; the nearest one.

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "sightline/bridge/recorded_estimates.h"
 #include "sightline/logs/carmen_stamps.h"
 #include "sightline/logs/trajectory_error.h"
+#include "sightline/mapping/recorded_tracker.h"
 #include "sightline/mapping/room_fitter.h"
 #include "temporary_folder.h"
 
@@ -61,10 +63,27 @@ class MappedRecording {
     bench::print("mapping." + name_ + ".missing_doors",
                  static_cast<double>(fitted.missing_doors.size()), "1");
     folder_.write("rooms.yaml", mapping::roomsText(fitted));
-    print(tracked(fitted.poses.front(), 0), "mapping." + name_ + ".");
+    print(tracked(fitted.poses.front()), "mapping." + name_ + ".");
   }
 
-  /// Fits rooms to the first half, and tracks the second where it passes the same rooms.
+  /// Fits rooms without wheels, and tracks the same recording in them by dead reckoning.
+  void printRoomsWithoutWheels() const {
+    const mapping::Survey survey = surveyed(false);
+    const mapping::FittedRooms fitted = mapping::fitRooms(survey, {});
+    folder_.write("rooms.yaml", mapping::roomsText(fitted));
+    auto config = inRooms(fitted.poses.front());
+    config.input.feed.odometry_source = pipeline::OdometrySource::kNone;
+    mapping::RecordedTracker tracker(config, mapping::odometryOf(survey));
+    logs::Trajectory trajectory;
+    read(config, [&](pipeline::LocatedScan located, const ros::Time&) {
+      const auto rooms = tracker.take(std::move(located)).rooms;
+      if (rooms) trajectory.push_back({rooms->stamp, rooms->pose.mean});
+    });
+    print(trajectory, "mapping." + name_ + "_laser_only.");
+  }
+
+  /// Fits rooms to the first half, and tracks the whole: the figures are those of the second half
+  /// where it is in these rooms, by the adjusted path of all.
   void printSplit() const {
     const std::int64_t half = halfTime();
     mapping::Survey survey(config_);
@@ -73,17 +92,38 @@ class MappedRecording {
     });
     const mapping::FittedRooms fitted = mapping::fitRooms(survey, {});
     folder_.write("rooms.yaml", mapping::roomsText(fitted));
+    const Reference reference(surveyed(true), fitted.poses.back());
     logs::Trajectory inside;
-    for (const geometry::StampedPose2& pose : tracked(fitted.poses.back(), half)) {
-      const bool is_inside =
-          std::any_of(fitted.rooms.begin(), fitted.rooms.end(),
-                      [&](const auto& room) { return room.contains(pose.pose.translation()); });
-      if (is_inside) inside.push_back(pose);
+    for (const geometry::StampedPose2& pose : tracked(fitted.poses.front())) {
+      if (pose.stamp >= half && reference.isIn(fitted.rooms, pose.stamp)) inside.push_back(pose);
     }
     print(inside, "mapping." + name_ + "_split.");
   }
 
  private:
+  // The adjusted path of a recording, laid over that of its first part.
+  class Reference {
+   public:
+    Reference(const mapping::Survey& survey, const geometry::StampedPose2& end) {
+      const auto path = mapping::PathAdjuster(survey.keys(), {}).adjust();
+      poses_ = mapping::posesOf(survey.path(), survey.keys(), path.keys);
+      T_part_all_ = end.pose * at(end.stamp)->inverse();
+    }
+    bool isIn(const std::vector<mapping::RoomOutline>& rooms, std::int64_t stamp) const {
+      const auto pose = at(stamp);
+      return pose && std::any_of(rooms.begin(), rooms.end(), [&](const auto& room) {
+               return room.contains((T_part_all_ * *pose).translation());
+             });
+    }
+
+   private:
+    std::optional<geometry::Pose2> at(std::int64_t stamp) const {
+      return geometry::poseAt(poses_.begin(), poses_.end(), stamp, 1'000'000'000);
+    }
+    std::vector<geometry::StampedPose2> poses_;
+    geometry::Pose2 T_part_all_;
+  };
+
   template <class Take>
   void read(const pipeline::EstimatorsConfig& config, const Take& take) const {
     bridge::BagFeed feed({folder_.path("in.bag")}, config, {});
@@ -111,14 +151,19 @@ class MappedRecording {
     return stamps[stamps.size() / 2];
   }
 
-  // The tracker from a pose on, over the scans from a time on.
-  logs::Trajectory tracked(const geometry::StampedPose2& start, std::int64_t from) const {
+  pipeline::EstimatorsConfig inRooms(const geometry::StampedPose2& start) const {
     auto config = config_;
     config.rooms->map = folder_.path("rooms.yaml");
     config.rooms->initial_pose = start.pose;
+    return config;
+  }
+
+  // The tracker from a pose on.
+  logs::Trajectory tracked(const geometry::StampedPose2& start) const {
+    const auto config = inRooms(start);
     bridge::RecordedEstimates estimates(config, {false, true, false}, folder_.path(""));
     read(config, [&](pipeline::LocatedScan located, const ros::Time& now) {
-      if (located.scan.stamp >= from) estimates.take(std::move(located), now);
+      estimates.take(std::move(located), now);
     });
     estimates.close();
     return logs::readTrajectory(folder_.path("rooms.tum"));
@@ -157,6 +202,7 @@ inline void printRecordings() {
     options.odometry_delay = 0.12;
     const MappedRecording freiburg("fr079", options, "fr079.yaml", {0.04, 0.0, 0.0});
     freiburg.printRooms();
+    freiburg.printRoomsWithoutWheels();
     freiburg.printSplit();
     freiburg.printPoses(/*with_wheels=*/true);
     freiburg.printPoses(/*with_wheels=*/false);
