@@ -7,9 +7,9 @@ namespace sightline::lines {
 /// Settings of the line extractor. What a beam is worth comes from the variances of the scan; what
 /// is left to choose is here, in standard deviations where it can be.
 struct LineExtractorConfig {
-  double gate = 3.5;              ///< g of pears eq. 33 [σ]
-  double misfit = 1.5;            ///< residuals of a wall over those of the noise, at most
-  double max_gap = 0.3;           ///< [m]
+  double gate = 3.5;     ///< g of pears eq. 33 [σ]
+  double misfit = 1.5;   ///< residuals of a wall over those of the noise, at most
+  double max_gap = 0.3;  ///< [m]
   int max_gap_beams = 4;
   double min_length = 0.5;  ///< [m]
   int min_beams = 10;
