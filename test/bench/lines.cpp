@@ -1,6 +1,8 @@
 // Line extraction: accuracy, covariance, completeness and time in a room with two boxes where the
 // truth is known, beside the floor that an oracle reaches who knows which beam hit which wall; and
 // what is explained of a real recording.
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -139,13 +141,8 @@ void runNode() {
   print("lines.node.cpu_percent", load.cpu_percent, "%");
 }
 
-}  // namespace
-}  // namespace sightline::bench
-
-int main() {
-  using namespace sightline::bench;
-  const double half_turn = sightline::geometry::kPi;
-  const double whole_turn = 2.0 * half_turn;
+void rooms() {
+  const double half_turn = geometry::kPi;
   const double wide = 1.5 * half_turn;
   run("361_s1", {361, half_turn, 0.01}, plainRoom);
   run("361_s3", {361, half_turn, 0.03}, plainRoom);
@@ -154,21 +151,46 @@ int main() {
   run("1081_s1_invalid5", {1081, wide, 0.01, 0.05}, plainRoom);
   run("1081_s1_door", {1081, wide, 0.01}, doorRoom);
   run("1081_s1_legs8", {1081, wide, 0.01}, legsRoom);
-  run("720_wrap_s1", {720, whole_turn, 0.01}, plainRoom);
+  run("720_wrap_s1", {720, 2.0 * half_turn, 0.01}, plainRoom);
   const Score moving = run("1081_s1_moving", {1081, wide, 0.01, 0.0, 0.075}, plainRoom);
   print("lines.1081_s1_moving.rho_over_standing",
         median(moving.errors.rho_mm) / median(standing.errors.rho_mm), "1");
   print("lines.1081_s1_moving.phi_over_standing",
         median(moving.errors.phi_mrad) / median(standing.errors.phi_mrad), "1");
-  otherWorlds();
+}
+
+void cost() {
   measureCost();
   print("lines.allocations", static_cast<double>(allocated), "1");
+}
+
+void singleWalls() {
   runSingleWall("wall_facing", -1.5, 2.0);
   runSingleWall("wall_aside", 0.0, 2.0);
   runSingleWall("wall_oblique", 2.0, 1.5);
   motionConsistency();
-  runPlainMethod();
-  runRecordings();
-  runNode();
+}
+
+/// A part of the benchmark, which may be asked for by name.
+struct LinesPart {
+  const char* name;
+  void (*measure)();
+};
+constexpr LinesPart kLinesParts[] = {
+    {"rooms", rooms},       {"worlds", otherWorlds},   {"cost", cost},
+    {"walls", singleWalls}, {"plain", runPlainMethod}, {"recordings", runRecordings},
+    {"node", runNode},
+};
+
+}  // namespace
+}  // namespace sightline::bench
+
+int main(int argc, char** argv) {
+  for (const auto& part : sightline::bench::kLinesParts) {
+    const bool is_asked =
+        argc < 2 || std::find(argv + 1, argv + argc, std::string(part.name)) != argv + argc;
+    if (is_asked) part.measure();
+    std::fflush(stdout);
+  }
   return 0;
 }
