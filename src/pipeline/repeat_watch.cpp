@@ -15,6 +15,8 @@ constexpr struct {
   // Motion that no range could miss [m, rad].
   double way = 0.1;
   double turn = 0.05;
+  // Time within which it counts: odometry drifts while a robot stands [ns].
+  std::int64_t within = 1'000'000'000;
 } kRepeat;
 
 bool showsNoise(const scan::RangeNoise* noise) {
@@ -43,11 +45,20 @@ bool RepeatWatch::isSame(const scan::Scan& scan) const {
   return returns >= kRepeat.fewest;
 }
 
+void RepeatWatch::comeAnew(std::int64_t stamp, const std::optional<geometry::Pose2>& T_odom_base) {
+  since_ = stamp;
+  T_odom_base_ = T_odom_base;
+}
+
 bool RepeatWatch::isRepeat(const scan::Scan& scan, const scan::RangeNoise* noise,
                            const std::optional<geometry::Pose2>& T_odom_base) {
-  if (isSame(scan)) return showsNoise(noise) || hasMoved(T_odom_base_, T_odom_base);
+  if (isSame(scan)) {
+    const bool is_repeat = showsNoise(noise) || hasMoved(T_odom_base_, T_odom_base);
+    if (!is_repeat && scan.stamp - since_ > kRepeat.within) comeAnew(scan.stamp, T_odom_base);
+    return is_repeat;
+  }
   ranges_ = scan.ranges();
-  T_odom_base_ = T_odom_base;
+  comeAnew(scan.stamp, T_odom_base);
   return false;
 }
 

@@ -197,7 +197,10 @@ std::optional<FeedResult> ScanFeed::settle(const Patience& patience) {
     front.begins_new_time = false;
     newest_.reset();
     last_.reset();
-    for (Scanner& scanner : scanners_) scanner.before.reset();
+    for (Scanner& scanner : scanners_) {
+      scanner.before.reset();
+      scanner.repeats = RepeatWatch();
+    }
     clock_restarted_ = true;
     locator_.restartClock(front.scan.stamp);
   }
@@ -226,7 +229,9 @@ FeedResult ScanFeed::finish(const ArrivedScan& arrived, ScanLocator::Outcome out
     if (arrived.elapsed) scanner.skipped += arrived.elapsed->usual;
     return drop(arrived, outcome.reason);
   }
+  if (outcome.located->odometry_broke) scanner.repeats = RepeatWatch();
   if (isRepeat(*outcome.located)) {
+    if (arrived.elapsed) scanner.skipped += arrived.elapsed->usual;
     odometry_broke_ |= outcome.located->odometry_broke;
     return drop(arrived,
                 "the ranges of the scan before it, to the last digit: its driver repeats it");

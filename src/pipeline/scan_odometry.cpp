@@ -180,7 +180,8 @@ std::string ScanOdometry::faultOf(const LocatedScan& located) {
     in_bursts_.erase(located.scanner);
   }
   if (located.scanner == *first_) return "";
-  if (!in_bursts_.empty()) return "stamps of arrival: its order among several scanners is unknown";
+  if (in_bursts_.count(*first_) > 0 || in_bursts_.count(located.scanner) > 0)
+    return "stamps of arrival: its order among several scanners is unknown";
   const bool is_shared = config_.matching.method == dead_reckoning::Method::kSubmap;
   return is_shared ? "" : "the method takes one scanner alone";
 }

@@ -22,8 +22,10 @@ constexpr struct {
   // One sense is meant where its mean difference is less than this share of the other's.
   double share = 0.6;
   // Votes that it takes, and their ratio.
-  double votes = 5.0;
+  double votes = 4.5;  // less than five, as they age
   double ratio = 4.0;
+  // Share of the votes that the next one leaves: a driver may be mended while the node runs.
+  double kept = 0.95;
 } kSense;
 
 // Mean difference between ranges that are seen and those that are expected of points [m]; nothing
@@ -81,6 +83,7 @@ void TurnSense::vote(const scan::Scan& scan, const geometry::Pose2& T_before_now
   const auto same = meanDifference(scan, 1.0, anchor_->returns, T_now_before);
   const auto opposite = meanDifference(scan, -1.0, anchor_->returns, T_now_before);
   if (!same || !opposite) return;
+  for (double& votes : votes_) votes *= kSense.kept;
   if (*same < kSense.share * *opposite) votes_[kSame] += 1.0;
   if (*opposite < kSense.share * *same) votes_[kOpposite] += 1.0;
 }

@@ -83,6 +83,7 @@ bool isHeavier(const Component& a, const Component& b) {
 void normalise(Mixture& mixture) {
   double sum = 0.0;
   for (const Component& component : mixture) sum += component.weight;
+  if (!(sum > 0.0)) return;  // nothing of it can be: its existence is 0
   for (Component& component : mixture) component.weight /= sum;
 }
 

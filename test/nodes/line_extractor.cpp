@@ -46,8 +46,10 @@ sensor_msgs::LaserScan wallAhead(const ros::Time& stamp, double turn = 0.0) {
   for (int i = 0; i < kBeams; ++i) {
     const double share = static_cast<double>(i) / (kBeams - 1);
     const double angle = scan.angle_min + i * scan.angle_increment + share * turn;
-    // A little roughness: nothing real is as straight as rounding.
-    scan.ranges.push_back(static_cast<float>(2.0 / std::cos(angle) + 0.01 * std::sin(7.0 * i)));
+    // A little noise, another one in each scan: nothing real is as straight as rounding, and only a
+    // driver that has gone silent repeats its ranges.
+    const double noise = 0.01 * std::sin(7.0 * i + stamp.nsec);
+    scan.ranges.push_back(static_cast<float>(2.0 / std::cos(angle) + noise));
   }
   return scan;
 }

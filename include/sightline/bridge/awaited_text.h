@@ -17,6 +17,9 @@ class AwaitedText {
 
   /// The text stands above the origin of `frame`.
   AwaitedText(ros::NodeHandle node, const std::string& frame, Awaited awaited);
+  // Its timer refers to it.
+  AwaitedText(const AwaitedText&) = delete;
+  AwaitedText& operator=(const AwaitedText&) = delete;
 
  private:
   void update();

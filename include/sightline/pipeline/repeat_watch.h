@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,9 +24,11 @@ class RepeatWatch {
 
  private:
   bool isSame(const scan::Scan& scan) const;
+  void comeAnew(std::int64_t stamp, const std::optional<geometry::Pose2>& T_odom_base);
 
   std::vector<double> ranges_;
-  std::optional<geometry::Pose2> T_odom_base_;  // when these ranges first came
+  std::int64_t since_ = 0;                      // stamp of these ranges, or of a look at them since
+  std::optional<geometry::Pose2> T_odom_base_;  // at that time
 };
 
 }  // namespace sightline::pipeline
