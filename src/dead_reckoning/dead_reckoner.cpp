@@ -15,8 +15,8 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-// Constants of this room stand in one struct a file. 74 of them were halved and doubled, one at a
-// time, on three logs: bad steps of fr079 and Intel stay within .3 points but for those whose
+// Constants of dead reckoning stand in one struct a file. 74 of them were halved and doubled, one
+// at a time, on three logs: bad steps of fr079 and Intel stay within .3 points but for those whose
 // comment says otherwise; so do those of a scanner of 5 cm counts (aces) within 3 points.
 struct ReckonerTuning {
   // Standard deviation below which no prior is believed: rounding of a log or a message [m, rad].

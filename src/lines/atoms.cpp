@@ -78,9 +78,9 @@ bool Atoms::takeWithStray(const BeamArray& beams, std::size_t first, const LineM
   return false;
 }
 
-// Past the place a line may be open, where the beams are far apart. At either end of the atom, two
-// returns more beyond it have to be of the line, as the one left out may be the first of something
-// else.
+// Tells whether a return may be left out. A line may be open there where the beams are far apart.
+// At either end of the atom, two returns more beyond it have to be of the line, as the one left out
+// may be the first of something else.
 bool Atoms::isStray(const BeamArray& beams, std::size_t first, std::size_t i,
                     const LineMoments& others) const {
   if (i < begin_ + 2 || i + 3 > end_ || isOpening(beams, i, others.line())) return false;

@@ -136,7 +136,7 @@ void BeamArray::addJitter(const scan::Scan& scan, std::size_t first, std::size_t
   }
 }
 
-// By the chord to one side or the other, whichever slants less: a step is no surface.
+// Takes the chord to one side or the other, whichever slants less: a step is no surface.
 void BeamArray::addSlant() {
   for (std::size_t i = 0; i < size; ++i) {
     const float before = slantAt(i, i - std::min(i, kChord));

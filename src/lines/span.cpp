@@ -88,7 +88,7 @@ bool SpanBreaks::adjoin(const Span& before, const Span& after) const {
   return before.end == after.first && !(*atoms_)[after.first_atom].is_cut;
 }
 
-// One behind the other has no corner with it: their distance counts no more than a stray return.
+// Walls one behind the other share no corner: their distance counts no more than a stray return.
 double SpanBreaks::costOf(const Break& of) const {
   return of.before.cost() + of.after.cost() +
          std::min(stray_price_, apartSquared(of.before, of.after, beams_->direction(of.at - 1),

@@ -30,7 +30,7 @@ MeanReturn meanReturn(const scan::Scan& scan) {
   return mean;
 }
 
-// Of the pose, along the axes of the base.
+// Covariance of the pose, along the axes of the base.
 Eigen::Matrix3d tiltCovariance(double tilt, const MeanReturn& mean,
                                const geometry::Pose2& T_base_sensor) {
   const double stretch = 0.5 * tilt * tilt;

@@ -31,7 +31,7 @@ void setVisibility(Bernoulli& bernoulli, const Look& look, double probability) {
   bernoulli.visibility[robot] = {probability, look.set().stamp};
 }
 
-// From a place to the look's sensor, in the map [rad].
+// Direction from a place to the look's sensor, in the map [rad].
 double directionTo(const Look& look, const Eigen::Vector2d& place_map) {
   const Eigen::Vector2d way = look.pose().mean.translation() - place_map;
   return std::atan2(way.y(), way.x());

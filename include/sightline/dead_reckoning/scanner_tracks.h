@@ -24,8 +24,7 @@ struct ScannerTrack {
     return geometry::between(T_odom_base, now_odom);
   }
   /// Acceleration to the twist that is found so long [s] after, zero where no twist was known;
-  /// averaged over some time, as what is
-  /// found of a sweep comes back in what is found of the next.
+  /// averaged over some time, as what is found of a sweep comes back in what is found of the next.
   Eigen::Vector3d accelerationTo(const Eigen::Vector3d& found, double elapsed) const;
 };
 

@@ -20,7 +20,8 @@ struct LineMoments {
   /// Share of the product of two squares that a determinant keeps where it is more than rounding.
   static constexpr double kLeastDeterminant = 1e-12;
 
-  double one = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;  ///< Σ v p pᵀ, with 1 for p
+  double one = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0,
+         yy = 0.0;  ///< Σ v p pᵀ, with 1 for p; p [m] in the sensor's frame, v without unit
 
   LineMoments& operator+=(const LineMoments& other) {
     one += other.one;
@@ -56,9 +57,9 @@ struct LineMoments {
 double apartSquared(const LineMoments& a, const LineMoments& b, const Eigen::Vector2d& from,
                     const Eigen::Vector2d& to);
 
-/// Of the returns [first, end).
+/// Moments of the returns [first, end).
 LineMoments momentsOf(const BeamArray& beams, std::size_t first, std::size_t end);
-/// Of one return.
+/// Moments of one return.
 LineMoments momentsOf(const BeamArray& beams, std::size_t of_return);
 
 }  // namespace sightline::lines

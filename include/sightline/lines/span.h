@@ -13,13 +13,13 @@ namespace sightline::lines {
 struct Span {
   std::size_t first_atom = 0;
   std::size_t end_atom = 0;
-  std::size_t first = 0;  ///< return
+  std::size_t first = 0;  ///< return, by its index in the BeamArray
   std::size_t end = 0;
   LineMoments moments;
   double cost = 0.0;  ///< χ² about the line
 };
 
-/// Both as one.
+/// Makes one span of two that adjoin.
 Span joined(const Span& before, const Span& after);
 
 /// Breaks between spans that adjoin.

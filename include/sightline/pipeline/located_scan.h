@@ -36,7 +36,7 @@ struct LocatedScan {
       no_odometry;  ///< why T_base_sensor or T_odom_base are not known; empty where both are
   bool before_odometry =
       false;  ///< whether that is since the scan is from before the odometry began
-  /// By a gyroscope, since the scan before, of whichever scanner [rad].
+  /// Turn by a gyroscope since the scan before, of whichever scanner [rad].
   std::optional<double> turn;
   std::optional<motion::SweepAttitude> attitude;  ///< of the sensor, by an inertial sensor
   /// The clock was set before this scan: its stamp says nothing of the time since the one before.

@@ -10,9 +10,9 @@ namespace sightline::pipeline {
 ///
 /// A scanner that nods by α and rolls by β sees what is ahead farther by the factor 1 / cos α, what
 /// is aside by 1 / cos β, and walls across its way turned by αβ, those along it not at all. No scan
-/// shows that, and it does not add up: the pose errs by it, and a step at both its ends. Of
-/// oscillations with the amplitude τ, αβ has the standard deviation τ²/2, and the view turns by
-/// half.
+/// shows that, and it does not add up: the pose errs by it, and a step at both its ends.
+/// Oscillations with the amplitude τ give αβ the standard deviation τ²/2, and turn the view by half
+/// of that.
 ///
 /// @param max_tilt  of the scanner [rad]; its usual amplitude is a share of that
 /// @param elapsed   time of the step [s]; 0 where there is none

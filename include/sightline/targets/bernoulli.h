@@ -40,10 +40,10 @@ struct Visibility {
 
 /// A target, or something that is taken for one, that may exist.
 struct Bernoulli {
-  double existence = 0.0;              ///< of any of both
-  Mixture mixture;                     ///< weights sum to one
-  std::int64_t stamp = 0;              ///< to which it has been predicted [ns]
-  std::uint32_t label = 0;             ///< 0: never reported yet
+  double existence = 0.0;   ///< probability that there is something, target or not [0, 1]
+  Mixture mixture;          ///< weights sum to one
+  std::int64_t stamp = 0;   ///< to which it has been predicted [ns]
+  std::uint32_t label = 0;  ///< 0: never reported yet
   std::vector<Visibility> visibility;  ///< by robot
 };
 

@@ -72,14 +72,15 @@ struct ClutterConfig {
   double mean = 0.5319;                     ///< μ, clutter measurements a look
   double uniform_share = 0.725;             ///< p_u
   double peak_width = 0.2 * geometry::kPi;  ///< θ_c, of the peaks at ±π/2 [rad]
-  /// Of the clutter that comes of surfaces that shine towards one side, again and again from one
-  /// place; the rest is of looks apart.
+  /// Share of the clutter that comes of surfaces that shine towards one side, again and again from
+  /// one place [0, 1]; the rest is of looks apart.
   double glint_share = 0.0;
   double glint_width = geometry::radians(2.5);  ///< standard deviation of that side [rad]
-  /// Of the clutter that comes of things seen again and again from all sides, but seldom.
+  /// Share of the clutter that comes of things seen again and again from all sides, but seldom
+  /// [0, 1].
   double faint_share = 0.0;
-  /// Probability that one is seen over that of a target, at most: near by, where both are most
-  /// alike.
+  /// Probability that one is seen over that of a target, at any range; taken from near by, where
+  /// both are most alike.
   double faint_detection = 0.3;
 
   void visit(config::FieldVisitor& visitor);
