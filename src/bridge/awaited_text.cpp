@@ -5,21 +5,18 @@
 #include <ros/this_node.h>
 
 #include "sightline/bridge/marker_drawing.h"
+#include "sightline/bridge/message_header.h"
 
 namespace sightline::bridge {
 
 namespace {
 
 visualization_msgs::Marker drawing(const std::string& frame, const std::string& text) {
-  using visualization_msgs::Marker;
-  std_msgs::Header header;  // its stamp of zero is tf's newest
-  header.frame_id = frame;
-  Marker marker = emptyMarker(ros::this_node::getName(), Marker::TEXT_VIEW_FACING, header, 0.0);
-  marker.pose.position = toPoint(Eigen::Vector2d::Zero(), 0.3);
-  marker.scale.z = 0.35;
-  marker.color = colour(1.0F, 1.0F, 1.0F);
-  marker.text = text;
-  if (text.empty()) marker.action = Marker::DELETE;
+  constexpr double kLetters = 0.35;
+  // A stamp of zero is tf's newest.
+  auto marker = textMarker(ros::this_node::getName(), text, Eigen::Vector2d::Zero(), kLetters,
+                           headerOf(0, frame));
+  if (text.empty()) marker.action = visualization_msgs::Marker::DELETE;
   return marker;
 }
 

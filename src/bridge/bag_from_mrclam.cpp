@@ -74,14 +74,7 @@ std::ofstream openBeside(const std::string& path, const std::string& ending) {
 class MrclamBag {
  public:
   MrclamBag(const logs::MrclamSet& set, const MrclamBagOptions& options, const std::string& path)
-      : options_(options),
-        path_(path),
-        bag_(path, rosbag::bagmode::Write),
-        labels_(openBeside(path, ".labels.csv")),
-        robots_(set.robots) {
-    // The covariances of the odometry are zeros, most of the bag.
-    bag_.setCompression(rosbag::compression::LZ4);
-    labels_ << "stamp,robot,index,subject\n";
+      : options_(options), path_(path), robots_(set.robots) {
     for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
       contents_.robots.push_back(robotName(robots_[robot]));
       errors_.emplace_back(options, robot);
@@ -93,6 +86,7 @@ class MrclamBag {
   }
 
   MrclamBagContents write() {
+    open();
     for (const BagItem& item : items_) {
       if (item.kind == BagItem::kPose) writePose(item);
       if (item.kind == BagItem::kLook) writeLook(item);
@@ -103,6 +97,15 @@ class MrclamBag {
   }
 
  private:
+  // Not before it is known that there is something to write.
+  void open() {
+    bag_.open(path_, rosbag::bagmode::Write);
+    // The covariances of the odometry are zeros, most of the bag.
+    bag_.setCompression(rosbag::compression::LZ4);
+    labels_ = openBeside(path_, ".labels.csv");
+    labels_ << "stamp,robot,index,subject\n";
+  }
+
   void prepare(logs::MrclamRobot& robot, std::size_t index) {
     const std::size_t logged = robot.looks.size();
     if (options_.period >= 0.0) {

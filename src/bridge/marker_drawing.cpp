@@ -32,4 +32,15 @@ visualization_msgs::Marker emptyMarker(const std::string& name, int type,
   return marker;
 }
 
+visualization_msgs::Marker textMarker(const std::string& name, const std::string& text,
+                                      const Eigen::Vector2d& place, double height,
+                                      const std_msgs::Header& header) {
+  auto marker = emptyMarker(name, visualization_msgs::Marker::TEXT_VIEW_FACING, header, 0.0);
+  marker.pose.position = toPoint(place, height);
+  marker.scale.z = height;
+  marker.color = colour(1.0F, 1.0F, 1.0F);
+  marker.text = text;
+  return marker;
+}
+
 }  // namespace sightline::bridge

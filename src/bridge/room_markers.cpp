@@ -18,6 +18,7 @@ using visualization_msgs::Marker;
 constexpr float kWallWidth = 0.06F;
 
 constexpr char kTextName[] = "room";
+constexpr double kTextHeight = 0.35;  // [m]
 
 // Adds the stretches where walls stand; those of the room `current` are bright.
 void addWalls(const world::RoomMap& map, const std::string& current, Marker& marker) {
@@ -33,16 +34,6 @@ void addWalls(const world::RoomMap& map, const std::string& current, Marker& mar
       }
     }
   }
-}
-
-Marker textAt(const Eigen::Vector2d& place, const std::string& text,
-              const std_msgs::Header& header) {
-  Marker marker = emptyMarker(kTextName, Marker::TEXT_VIEW_FACING, header, 0.0);
-  marker.pose.position = toPoint(place, 0.3);
-  marker.scale.z = 0.35;
-  marker.color = colour(1.0F, 1.0F, 1.0F);
-  marker.text = text;
-  return marker;
 }
 
 // Everything that one array of markers is drawn from.
@@ -136,7 +127,7 @@ Marker rivals(const Scene& scene) {
 
 Marker roomName(const Scene& scene) {
   const Eigen::Vector2d above = scene.update.pose.mean.translation() + Eigen::Vector2d(0.0, 0.6);
-  return textAt(above, scene.update.room, scene.header);
+  return textMarker(kTextName, scene.update.room, above, kTextHeight, scene.header);
 }
 
 // Where a view of the map begins: at its origin, unless that is outside.
@@ -173,12 +164,11 @@ visualization_msgs::MarkerArray roomMarkers(const tracking::TrackerUpdate& updat
 
 visualization_msgs::MarkerArray awaitingMarkers(const world::RoomMap& map, const std::string& text,
                                                 const std::string& map_frame) {
-  std_msgs::Header header;  // its stamp of zero is tf's newest
-  header.frame_id = map_frame;
+  const std_msgs::Header header = headerOf(0, map_frame);  // tf's newest
   Marker walls = emptyMarker("walls", Marker::LINE_LIST, header, kWallWidth);
   addWalls(map, "", walls);
   visualization_msgs::MarkerArray array;
-  array.markers = {walls, textAt(firstSeen(map), text, header)};
+  array.markers = {walls, textMarker(kTextName, text, firstSeen(map), kTextHeight, header)};
   for (const char* of_a_pose : {"gates", "accepted", "position 95 %", "rivals"}) {
     array.markers.push_back(emptyMarker(of_a_pose, Marker::LINE_LIST, header, 0.0));
     array.markers.back().action = Marker::DELETE;

@@ -89,14 +89,8 @@ visualization_msgs::Marker ellipseMarker(const targets::Target& target,
 visualization_msgs::Marker labelMarker(const targets::Target& target,
                                        const std_msgs::Header& header) {
   constexpr double kLetters = 0.6;
-  auto marker =
-      emptyMarker("labels", visualization_msgs::Marker::TEXT_VIEW_FACING, header, kLetters);
+  auto marker = textMarker("labels", std::to_string(target.label), target.mean, kLetters, header);
   marker.id = static_cast<int>(target.label);
-  marker.pose = toPose({target.mean, 0.0});
-  marker.pose.position.z = kLetters;
-  marker.scale.z = kLetters;
-  marker.color = colour(1.0F, 1.0F, 1.0F);
-  marker.text = std::to_string(target.label);
   return marker;
 }
 

@@ -9,11 +9,11 @@ namespace {
 
 using geometry::Pose2;
 
-scan::Scan scanOf(double range, std::size_t returns = 50) {
+scan::Scan scanOf(double range, std::size_t returns = 50, std::int64_t stamp = 0) {
   const auto geometry = scan::ScanGeometry::uniform(-1.0, 0.04, 50, 0.0, 0.1, 10.0);
   std::vector<double> ranges(50, range);
   for (std::size_t i = returns; i < 50; ++i) ranges[i] = std::numeric_limits<double>::quiet_NaN();
-  return scan::Scan(geometry, 0, ranges);
+  return scan::Scan(geometry, stamp, ranges);
 }
 
 scan::RangeNoise noiseOf(double sigma, double step = 0.0) {
@@ -44,6 +44,15 @@ TEST(RepeatWatch, WithoutNoiseOnlyMotionTells) {
     EXPECT_FALSE(watch.isRepeat(scanOf(2.0), noise, Pose2(0.06, 0.0, 0.0)));
     EXPECT_TRUE(watch.isRepeat(scanOf(2.0), noise, Pose2(0.12, 0.0, 0.0)));
     EXPECT_FALSE(watch.isRepeat(scanOf(2.1), noise, Pose2(0.12, 0.0, 0.0)));
+  }
+}
+
+// Odometry that drifts by 2 cm/s while a scanner without noise stands.
+TEST(RepeatWatch, DriftOfARobotThatStandsIsNoMotion) {
+  RepeatWatch watch;
+  for (int i = 0; i < 200; ++i) {
+    const std::int64_t stamp = 100'000'000 * static_cast<std::int64_t>(i);
+    EXPECT_FALSE(watch.isRepeat(scanOf(2.0, 50, stamp), nullptr, Pose2(0.002 * i, 0.0, 0.0))) << i;
   }
 }
 

@@ -102,9 +102,11 @@ TEST(Targets, PartOfASetIsABagOfItsOwn) {
   const int first = looksOf("--to 60");
   EXPECT_NEAR(first, 0.5 * all, 0.05 * all);
   EXPECT_NEAR(first + looksOf("--from 60"), all, 3.0);
-  const auto none = runProgram("mrclam_to_bag", folder.path("") + " none.bag --from 9999");
+  const auto none =
+      runProgram("mrclam_to_bag", folder.path("") + " " + folder.path("none.bag") + " --from 9999");
   EXPECT_EQ(none.status, 1);
   EXPECT_THAT(none.output, HasSubstr("the set has nothing in that time"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("none.bag")));
 }
 
 TEST(Targets, SayWhatIsMissing) {

@@ -18,4 +18,9 @@ geometry_msgs::Point toPoint(const Eigen::Vector2d& point, double height);
 visualization_msgs::Marker emptyMarker(const std::string& name, int type,
                                        const std_msgs::Header& header, double width);
 
+/// White text that faces the viewer, its letters `height` high [m], as far above a place.
+visualization_msgs::Marker textMarker(const std::string& name, const std::string& text,
+                                      const Eigen::Vector2d& place, double height,
+                                      const std_msgs::Header& header);
+
 }  // namespace sightline::bridge

@@ -28,7 +28,6 @@ class TargetOutput {
   void reset();
 
   std::size_t used() const { return used_; }
-  std::size_t spared() const { return spared_; }
   std::vector<std::string> summary() const;
   /// Called with each estimate that is written.
   std::function<void(const targets::TargetEstimate&)> listener;

@@ -21,13 +21,14 @@ class Gap {
     return beams.beam[to] - beams.beam[from] <= 1 + max_missing_;
   }
 
+  /// Whether a wall may go on over this length [m] whatever lies in it.
   bool isShort(double length) const { return std::abs(length) <= max_length_; }
   /// Judges the gap on a line from the return `from` to the return `to`, `length` apart, with every
   /// return between them off the line. One stray return in front of the line is no opening, nor are
   /// a few beams that came back with nothing; anything else is judged by its length.
   bool mayBridge(const BeamArray& beams, const LineEstimate& line, std::size_t from, std::size_t to,
                  double length) const {
-    if (std::abs(length) <= max_length_) return true;
+    if (isShort(length)) return true;
     if (to - from > 2 || !isSmall(beams, from, to)) return false;
     return to - from < 2 || residualsOf(beams, from + 1, line).distance[0] < 0.0F;
   }

@@ -29,10 +29,6 @@ inline Packet load(const float* from) {
   return packet;
 }
 
-inline void store(float* to, const Packet& packet) {
-  std::memcpy(to, &packet, sizeof(packet));
-}
-
 inline Packet all(float value) {
   return Packet{value, value, value, value};
 }
@@ -49,12 +45,6 @@ inline Packet larger(const Packet& a, const Packet& b) {
 inline Packet firstLanes(std::size_t count) {
   return Packet{count > 0 ? 1.0F : 0.0F, count > 1 ? 1.0F : 0.0F, count > 2 ? 1.0F : 0.0F,
                 count > 3 ? 1.0F : 0.0F};
-}
-
-/// Sums of the lanes of four packets.
-inline Packet sums(const Packet& a, const Packet& b, const Packet& c, const Packet& d) {
-  return Packet{a[0], b[0], c[0], d[0]} + Packet{a[1], b[1], c[1], d[1]} +
-         Packet{a[2], b[2], c[2], d[2]} + Packet{a[3], b[3], c[3], d[3]};
 }
 
 /// The same in double. Functions return none: without AVX there is no register to do it in.

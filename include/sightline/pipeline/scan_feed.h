@@ -41,8 +41,8 @@ struct FeedCounts {
 /// Takes scans as they arrive and gives them back, those that wait in the order of their stamps and
 /// each scanner's own always so, completed by transforms, odometry and an inertial sensor, or with
 /// the reason why it is not used. A scan waits for what belongs to it as long as the settings'
-/// patience lasts. A scanner whose stamps are those of arrival keeps the order of arrival. Of
-/// several scanners, a scan waits for one that is about to come late with an earlier stamp.
+/// patience lasts. A scanner whose stamps are those of arrival keeps the order of arrival. A
+/// scan also waits for one of another scanner that is about to come late with an earlier stamp.
 ///
 /// A stamp that leaps against the ones before it is left out, unless those after it go on from
 /// there: then the clock was set, and the scans of the new time are used.

@@ -7,8 +7,8 @@
 
 namespace sightline::pipeline {
 
-/// Noise of wheels that nobody has measured. The two sigmas come on top, once a scan: what wheels
-/// report of a moment is late or rounded.
+/// Noise of wheels that nobody has measured. The two sigmas come on top, once a step between
+/// scans: what wheels report of a moment is late or rounded.
 struct WheelsConfig {
   motion::OdometryNoise noise = unmeasured();
   double position_sigma = 0.02;  ///< [m]
