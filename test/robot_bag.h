@@ -44,6 +44,7 @@ struct RobotBag {
   double angle_min = -geometry::kPi;
   double angle_max = geometry::kPi - 2.0 * geometry::kPi / 360.0;
   bool moves = true;
+  double wiggle = 0.0;  // to either side of the path, at 0.4 Hz [rad]
   simulation::Mounting mounting{0.1, 0.0, 0.3, 0.0, 0.0, 0.0};
   std::string laser = "laser";
   std::string odom = "odom";
@@ -70,7 +71,10 @@ struct RobotBag {
     return {position, std::atan2(1.1 * std::cos(phase), -1.8 * std::sin(phase))};
   }
   /// T_map_base, so long after the start.
-  geometry::Pose2 truth(double time) const { return pathAt(moves ? time : 0.0); }
+  geometry::Pose2 truth(double time) const {
+    const double off = wiggle * std::sin(0.8 * geometry::kPi * time);
+    return moves ? pathAt(time) * geometry::Pose2(0.0, 0.0, off) : pathAt(0.0);
+  }
   /// T_odom_base as exact wheels have it.
   geometry::Pose2 wheels(double time) const { return geometry::between(truth(0.0), truth(time)); }
   static ros::Time stampOf(double time) { return ros::Time(kRobotStart + time); }

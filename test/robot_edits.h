@@ -165,6 +165,37 @@ inline RobotInput mirroredScans() {
   return input;
 }
 
+/// The robot turns to and fro as it drives, with a scanner of a whole circle a tenth of a second.
+inline RobotInput turningToAndFro() {
+  RobotInput input = asItShouldBe();
+  input.name = "turning_to_and_fro";
+  input.bag.wiggle = 0.5;
+  input.bag.revolution = 0.1;
+  input.judged_from = 8.0;
+  return input;
+}
+
+/// The stamps of the scans are so much behind the first beam [s].
+inline RobotInput lateStamps(double late) {
+  RobotInput input = turningToAndFro();
+  input.name = "late_stamps";
+  input.bag.scan = [=](sensor_msgs::LaserScan& scan, double) {
+    scan.header.stamp += ros::Duration(late);
+  };
+  input.time_of_stamp = [=](double stamp) { return stamp - kRobotStart - late; };
+  return input;
+}
+
+/// The time from beam to beam is declared so many times as long as it is.
+inline RobotInput otherSweeps(double factor) {
+  RobotInput input = turningToAndFro();
+  input.name = "other_sweeps";
+  input.bag.scan = [=](sensor_msgs::LaserScan& scan, double) {
+    scan.time_increment *= static_cast<float>(factor);
+  };
+  return input;
+}
+
 /// From one time to another the driver sends one scan over and over, with stamps that go on.
 inline RobotInput repeatedScans(double from, double to) {
   RobotInput input = asItShouldBe();

@@ -26,6 +26,7 @@ struct RobotInput {
   std::string options;         // of the command line
   std::vector<double> splits;  // times at which a bag ends and the next one begins [s]
   std::function<double(double)> time_of_stamp;  // where stamps are not what they should be [s]
+  double judged_from = 0.0;  // time before which a fault cannot be known [s]
 };
 
 struct RobotError {
@@ -84,7 +85,7 @@ inline void judgeRooms(const RobotInput& input, const TemporaryFolder& folder, R
     const auto state = states.find(posed.stamp);
     const bool is_good = state != states.end() && state->second == TrackerStatus::TRACKING;
     ++(is_good ? run.tracking : run.not_tracking);
-    if (!is_good) continue;
+    if (!is_good || timeOf(input, posed.stamp) < input.judged_from) continue;
     run.rooms_worst.position = std::max(run.rooms_worst.position, error.position);
     run.rooms_worst.heading = std::max(run.rooms_worst.heading, error.heading);
   }
@@ -98,7 +99,10 @@ inline void judgeOdometry(const RobotInput& input, const TemporaryFolder& folder
     return input.bag.truth(timeOf(input, posed.stamp));
   };
   for (const auto& posed : poses) run.has_nan |= !posed.pose.isFinite();
-  const auto start = truthOf(poses.front()) * poses.front().pose.inverse();
+  const auto first = std::find_if(poses.begin(), std::prev(poses.end()), [&](const auto& posed) {
+    return timeOf(input, posed.stamp) >= input.judged_from;
+  });
+  const auto start = truthOf(*first) * first->pose.inverse();
   run.odometry_end = errorBetween(truthOf(poses.back()), start * poses.back().pose);
   const auto place = run.output.find(" of them flagged");
   if (place == std::string::npos) return;

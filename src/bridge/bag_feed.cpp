@@ -217,11 +217,13 @@ std::size_t BagFeed::breaks() const {
   return sum;
 }
 
-std::vector<std::string> BagFeed::turningOpposite() const {
+std::vector<std::string> BagFeed::faultsOfTurns() const {
   std::vector<std::string> texts;
   for (const auto& [topic, scanner] : scanners_) {
     const std::size_t count = feed_.counts(scanner).turns_opposite;
     if (count > 0) texts.push_back(fmt::format("/{}: {} ({} scans)", topic, kTurnsOpposite, count));
+    const std::string fault = feed_.timingFault(scanner);
+    if (!fault.empty()) texts.push_back(fmt::format("/{}: {}", topic, fault));
   }
   return texts;
 }

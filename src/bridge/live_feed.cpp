@@ -134,6 +134,7 @@ void LiveFeed::deliver(pipeline::FeedResult& result) {
     monitor.warn("the odometry was reset or leaped: bridged by the scans");
   }
   if (result.located->turns_opposite) monitor.warn(kTurnsOpposite);
+  if (const auto fault = feed_.timingFault(result.scanner); !fault.empty()) monitor.warn(fault);
   try {
     consumer_(std::move(*result.located));
     monitor.accept();

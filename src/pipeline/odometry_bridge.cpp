@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sightline/pipeline/seconds_between.h"
+
 namespace sightline::pipeline {
 
 using geometry::Pose2;
@@ -22,10 +24,6 @@ constexpr struct {
   std::int64_t stretch = 20'000'000;
   std::int64_t most = 64;
 } kBridge;
-
-double secondsBetween(std::int64_t from, std::int64_t to) {
-  return 1e-9 * static_cast<double>(to - from);
-}
 
 std::int64_t stretchesBetween(std::int64_t from, std::int64_t to) {
   return std::clamp<std::int64_t>((to - from) / kBridge.stretch, 1, kBridge.most);

@@ -27,12 +27,11 @@ std::size_t ScanFeed::addScanner() {
 }
 
 void ScanFeed::add(std::size_t scanner, scan::Scan scan, std::int64_t now) {
-  admit({scanner, std::move(scan), std::nullopt, now, false, std::nullopt});
+  admit({scanner, std::move(scan), std::nullopt, now});
 }
 
 void ScanFeed::add(std::size_t scanner, motion::RangeScan range_scan, std::int64_t now) {
-  admit(
-      {scanner, std::move(range_scan.scan), std::move(range_scan.head), now, false, std::nullopt});
+  admit({scanner, std::move(range_scan.scan), std::move(range_scan.head), now});
 }
 
 // Tells whether a stamp leaps since it is that of an arrival in bursts.
@@ -83,6 +82,7 @@ void ScanFeed::take(ArrivedScan arrived) {
   auto turn = scanner.turns.add(arrived.scan);
   if (!turn) return;
   arrived.scan = std::move(*turn);
+  if (config_.correct_timing) arrived.odometry_shift = scanner.timing.correct(arrived.scan);
   if (config_.noise.kind == scan::NoiseKind::kIntensity && arrived.scan.intensities().empty()) {
     ++scanner.counts.arrived;
     dropped_.push_back(drop(arrived, "no intensities, by which the noise is to be known"));
@@ -248,7 +248,7 @@ FeedResult ScanFeed::finish(const ArrivedScan& arrived, ScanLocator::Outcome out
   if (!result.located->motion_known) ++scanner.counts.without_motion;
   if (result.located->odometry_broke) ++scanner.counts.odometry_broke;
   result.located->clock_restarted = std::exchange(clock_restarted_, false);
-  watchTurns(arrived.head.has_value(), *result.located);
+  watchTurns(arrived, *result.located);
   scanner.before = arrived.scan.stamp;
   last_ = arrived.scan.stamp;
   newest_ = std::max(newest_.value_or(arrived.scan.stamp), arrived.scan.stamp);
@@ -261,16 +261,29 @@ bool ScanFeed::isRepeat(const LocatedScan& located) {
                                                      T_odom_base);
 }
 
-void ScanFeed::watchTurns(bool has_head, LocatedScan& located) {
+std::string ScanFeed::timingFault(std::size_t scanner) const {
+  const std::string fault = scanners_[scanner].timing.fault();
+  if (fault.empty()) return fault;
+  return fault + (config_.correct_timing ? ": made good" : ": left so by correct_timing");
+}
+
+void ScanFeed::watchTurns(const ArrivedScan& arrived, LocatedScan& located) {
   Scanner& scanner = scanners_[located.scanner];
   if (located.turn) heading_ += *located.turn;
   auto T_odom_base = located.T_path_base;
   if (!T_odom_base && located.turn) T_odom_base = geometry::Pose2(0.0, 0.0, heading_);
-  if (!T_odom_base || located.odometry_broke || located.clock_restarted) scanner.sense.skip();
-  if (!T_odom_base || has_head) return;
-  scanner.sense.add(located.scan, *T_odom_base, located.T_base_sensor.value_or(geometry::Pose2()));
+  if (!T_odom_base || located.odometry_broke || located.clock_restarted) {
+    scanner.sense.skip();
+    scanner.timing.skip();
+  }
+  if (!T_odom_base || arrived.head) return;
+  const geometry::Pose2 T_base_sensor = located.T_base_sensor.value_or(geometry::Pose2());
+  scanner.sense.add(located.scan, *T_odom_base, T_base_sensor);
   located.turns_opposite = scanner.sense.isOpposite();
   if (located.turns_opposite) ++scanner.counts.turns_opposite;
+  if (located.T_path_base && !arrived.elapsed && !located.turns_opposite) {
+    scanner.timing.add(located.scan, arrived.odometry_shift, *T_odom_base, T_base_sensor);
+  }
 }
 
 }  // namespace sightline::pipeline

@@ -89,7 +89,7 @@ ScanLocator::Outcome ScanLocator::locate(const ArrivedScan& arrived, const Patie
   place(arrived, T_base_carried, *outcome.located);
   if (odometry == Known::kYes) {
     if (needs_.mounting) followWheels(arrived, *outcome.located);
-    addMotion(arrived, 0, *outcome.located);
+    addMotion(arrived, -arrived.odometry_shift, *outcome.located);
   } else if (const auto lag = lagOf(arrived); lag && odometry == Known::kNot) {
     addMotion(arrived, *lag, *outcome.located);
   }
@@ -160,8 +160,8 @@ ScanLocator::Known ScanLocator::findOdometry(const ArrivedScan& arrived, const P
   chooseSource(frame);
   const std::string what = "odometry";
   if (!source_) return waitForFirst(what, patience);
-  const std::int64_t stamp = arrived.scan.stamp;
-  const std::int64_t end = std::max(stamp, arrived.scan.end());
+  const std::int64_t stamp = arrived.scan.stamp + arrived.odometry_shift;
+  const std::int64_t end = std::max(stamp, arrived.scan.end() + arrived.odometry_shift);
   // The newest first, as with the mounting.
   const auto newest = newestOdometry(frame);
   if (T_odom_carried(frame, stamp) && T_odom_carried(frame, end)) return Known::kYes;
@@ -223,10 +223,12 @@ void ScanLocator::maskBody(const ArrivedScan& arrived, LocatedScan& located) con
 
 void ScanLocator::followWheels(const ArrivedScan& arrived, LocatedScan& located) {
   const std::int64_t stamp = located.scan.stamp;
-  located.T_odom_base = T_odom_base(stamp);
+  const auto pose_at = [this, shift = arrived.odometry_shift](std::int64_t time) {
+    return T_odom_base(time + shift);
+  };
+  located.T_odom_base = pose_at(stamp);
   if (!located.T_odom_base) return;
-  const auto step = bridge_.follow(
-      stamp, [this](std::int64_t time) { return T_odom_base(time); }, arrived.elapsed);
+  const auto step = bridge_.follow(stamp, pose_at, arrived.elapsed);
   located.T_path_base = step.T_path_base;
   located.odometry_broke = step.is_broken;
 }

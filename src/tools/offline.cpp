@@ -120,7 +120,7 @@ void printInput(const bridge::BagFeed& feed) {
     std::printf("%zu messages dropped: %s\n", count, reason.c_str());
   }
   print(feed.mended());
-  print(feed.turningOpposite());
+  print(feed.faultsOfTurns());
   if (feed.breaks() > 0) {
     std::printf("the odometry broke %zu times: bridged by the scans\n", feed.breaks());
   }

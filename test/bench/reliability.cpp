@@ -5,6 +5,8 @@
 // neither crashes, nor hangs, nor is silently wrong: a room pose that is called tracking is within
 // 10 cm and 3 degrees, odometry of which no scan is flagged ends within that, nothing is NaN, and
 // estimators without a pose for half of the scans end with another status than 0.
+//
+// usage: bench_reliability [PART OF AN INPUT'S NAME]
 #include <fmt/format.h>
 
 #include "reliability/scans.h"
@@ -24,6 +26,14 @@ std::vector<test::RobotInput> allInputs() {
   bench::addMountings(inputs);
   bench::addTopics(inputs);
   bench::addDrivers(inputs);
+  return inputs;
+}
+
+std::vector<test::RobotInput> inputsWith(const std::string& part_of_name) {
+  std::vector<test::RobotInput> inputs;
+  for (test::RobotInput& input : allInputs()) {
+    if (input.name.find(part_of_name) != std::string::npos) inputs.push_back(std::move(input));
+  }
   return inputs;
 }
 
@@ -47,8 +57,8 @@ std::string verdictOn(const test::RobotInput& input) {
 
 }  // namespace
 
-int main() {
-  const auto inputs = allInputs();
+int main(int argc, char** argv) {
+  const auto inputs = inputsWith(argc > 1 ? argv[1] : "");
   std::size_t survived = 0;
   for (const test::RobotInput& input : inputs) {
     const std::string verdict = verdictOn(input);

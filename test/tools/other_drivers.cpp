@@ -25,6 +25,33 @@ TEST(OtherDrivers, BeamsInTheOppositeSenseAreNamed) {
   EXPECT_THAT(runOffline(test::asItShouldBe()).output, Not(HasSubstr("turn against")));
 }
 
+TEST(OtherDrivers, LateStampsAreFoundByTurnsAndMadeGood) {
+  const RobotInput right = test::turningToAndFro();
+  EXPECT_THAT(runOffline(right).output, Not(HasSubstr("as turns show")));
+  for (const double late : {0.1, -0.08}) {
+    const RobotRun run = runOffline(test::lateStamps(late));
+    EXPECT_THAT(run.output, HasSubstr("as turns show, by the odometry's clock its first beam is"));
+    EXPECT_LT(run.rooms_worst.position, 0.02) << run.output;
+    EXPECT_LT(run.rooms_worst.heading, 0.5) << late;
+    EXPECT_LT(run.odometry_end.heading, 0.5) << late;
+  }
+  RobotInput left = test::lateStamps(0.1);
+  left.settings = "correct_timing: false\n";
+  const RobotRun run = runOffline(left);
+  EXPECT_THAT(run.output, HasSubstr("left so by correct_timing"));
+  EXPECT_GT(run.rooms_worst.heading, 3.0);
+}
+
+TEST(OtherDrivers, SweepsOfAnotherDurationOrOrderAreFoundAndMadeGood) {
+  for (const double factor : {-1.0, 0.0, 0.05}) {
+    const RobotRun run = runOffline(test::otherSweeps(factor));
+    EXPECT_THAT(run.output, HasSubstr("from its first beam to its last 0.")) << factor;
+    EXPECT_LT(run.rooms_end.position, 0.03) << run.output;
+    EXPECT_LT(run.rooms_end.heading, 1.5) << factor;
+    EXPECT_LT(run.odometry_end.heading, 1.0) << factor;
+  }
+}
+
 TEST(OtherDrivers, RepeatedScansAreDroppedByName) {
   const RobotRun run = runOffline(test::repeatedScans(8.0, 10.0));
   EXPECT_EQ(run.status, 0) << run.output;

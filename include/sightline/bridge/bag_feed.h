@@ -61,7 +61,7 @@ class BagFeed {
   /// Times that the clock was set.
   std::size_t restarts() const { return restarts_; }
   /// Scanners whose scans turn against the odometry, each with what is said of it.
-  std::vector<std::string> turningOpposite() const;
+  std::vector<std::string> faultsOfTurns() const;
   /// Faults that were mended in scans, each once.
   std::vector<std::string> mended() const;
   /// Time from the first scan to the last [s].

@@ -17,7 +17,9 @@ struct ArrivedScan {
   scan::Scan scan;
   std::optional<motion::HeadSweep> head;  ///< of a sensor that turns with a head
   std::int64_t arrival = 0;               ///< by the feed's clock [ns]
-  bool begins_new_time = false;           ///< the first one since the clock was set
+  /// Added to the stamp where the odometry is looked up, by what turns have shown [ns].
+  std::int64_t odometry_shift = 0;
+  bool begins_new_time = false;  ///< the first one since the clock was set
   /// Time since the scan before, where the stamps are those of arrival and do not tell it.
   std::optional<scan::ElapsedTime> elapsed = {};
 

@@ -44,6 +44,7 @@ struct FeedConfig {
   BodySectors body;             ///< directions in which scanners see the robot itself
   double head_sigma = 0.0;      ///< of each reported angle of a turning head [rad]
   double time_offset = 0.0;     ///< added to the stamps of scans [s]
+  bool correct_timing = true;   ///< learn when beams are measured (SweepTiming)
   double patience = 0.5;        ///< for what has been coming [s]
   double start_patience = 2.0;  ///< for what has not come yet [s]
 

@@ -13,6 +13,7 @@
 #include "sightline/pipeline/scan_locator.h"
 #include "sightline/pipeline/scan_schedule.h"
 #include "sightline/pipeline/stamp_watch.h"
+#include "sightline/pipeline/sweep_timing.h"
 #include "sightline/pipeline/turn_sense.h"
 #include "sightline/scan/learned_noise.h"
 #include "sightline/scan/miss_value.h"
@@ -77,6 +78,8 @@ class ScanFeed {
   const FeedCounts& counts(std::size_t scanner) const { return scanners_[scanner].counts; }
   /// Noise of a scanner, where that is learned from its scans; null where the settings say it.
   const scan::RangeNoise* learnedNoise(std::size_t scanner) const;
+  /// What is wrong with the times of a scanner's beams, in words; empty where nothing is.
+  std::string timingFault(std::size_t scanner) const;
   std::size_t scanners() const { return scanners_.size(); }
 
  private:
@@ -91,6 +94,7 @@ class ScanFeed {
     ScanSchedule schedule;
     RepeatWatch repeats;
     TurnSense sense;
+    SweepTiming timing;
     double skipped = 0.0;  // time of scans that were dropped since the last one, by the clock [s]
     std::optional<std::int64_t> before;  // stamp of its last scan that was located
   };
@@ -106,7 +110,7 @@ class ScanFeed {
   std::optional<FeedResult> settle(const Patience& patience);
   FeedResult finish(const ArrivedScan& arrived, ScanLocator::Outcome outcome);
   bool isRepeat(const LocatedScan& located);
-  void watchTurns(bool has_head, LocatedScan& located);
+  void watchTurns(const ArrivedScan& arrived, LocatedScan& located);
   FeedResult drop(const ArrivedScan& arrived, const std::string& reason);
   bool isSetBack(const ArrivedScan& arrived) const;
 

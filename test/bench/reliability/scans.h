@@ -124,6 +124,14 @@ inline void addDrivers(std::vector<RobotInput>& inputs) {
   inputs.push_back(named("beams in the opposite sense", test::mirroredScans()));
   inputs.push_back(named("beams in the opposite sense, odometry on a topic",
                          test::onTopic(test::mirroredScans())));
+  inputs.push_back(named("turning to and fro", test::turningToAndFro()));
+  for (const double late : {0.05, 0.1, 0.3, -0.05}) {
+    inputs.push_back(named(fmt::format("stamps {} s late", late), test::lateStamps(late)));
+  }
+  for (const double factor : {-1.0, 0.0, 0.05}) {
+    inputs.push_back(
+        named(fmt::format("time_increment {} times as long", factor), test::otherSweeps(factor)));
+  }
   for (const double length : {0.5, 2.0, 5.0}) {
     inputs.push_back(named(fmt::format("one scan repeated for {} s", length),
                            test::repeatedScans(8.0, 8.0 + length)));
