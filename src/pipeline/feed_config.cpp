@@ -37,10 +37,9 @@ void FeedConfig::visit(config::FieldVisitor& visitor) {
                   {-10.0, 10.0},
                   "added to the stamps of scans, for a driver that does not stamp the first beam: "
                   "minus the duration of the sweep for stamps at its end"});
-  visitor.flag(
-      "correct_timing", correct_timing,
-      "learn from the odometry's turns when the beams are measured, and correct stamps and "
-      "sweeps that are certainly wrong");
+  visitor.flag("correct_timing", correct_timing,
+               "learn from the odometry's turns when the beams are measured, and make good what is "
+               "certainly wrong of stamps and sweeps");
   visitor.number("patience", patience,
                  {"s",
                   {0.0, 60.0},
