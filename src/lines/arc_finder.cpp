@@ -26,11 +26,16 @@ struct ArcFinderConstants {
 };
 constexpr ArcFinderConstants kArcs{};
 
-bool overlaps(const Piece& piece, const Run& run, std::size_t revolution) {
+// Whether a run holds most of a piece. A wall that goes on behind a round thing has the run of the
+// thing among its returns, and is no chord of it.
+bool holds(const Run& run, const Piece& piece, std::size_t revolution) {
+  std::size_t common = 0;
   for (const std::size_t shift : {std::size_t{0}, revolution}) {
-    if (piece.first + shift < run.end && run.first < piece.end + shift) return true;
+    const std::size_t first = std::max(piece.first + shift, run.first);
+    const std::size_t end = std::min(piece.end + shift, run.end);
+    if (first < end) common += end - first;
   }
-  return false;
+  return 2 * common > piece.size();
 }
 
 // Cost of the straight line through the returns that minimises their squared distances, each return
@@ -143,9 +148,7 @@ bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const R
   if (!fit || !isPlausible(*fit) || !isLikelier(*fit, beams, run, pieces)) return false;
   arcs.push_back(toArc(*fit, scan, beams, run));
   arcs.back().covariance += motionCovariance(scan, beams, run, *fit);
-  const auto isChord = [&](const Piece& piece) {
-    return !runs_.isSureWall(piece.first) && overlaps(piece, run, beams.revolution);
-  };
+  const auto isChord = [&](const Piece& piece) { return holds(run, piece, beams.revolution); };
   pieces.erase(std::remove_if(pieces.begin(), pieces.end(), isChord), pieces.end());
   return true;
 }
@@ -251,7 +254,7 @@ bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run&
   double lines = 0.0;
   double loose = static_cast<double>(run.size());
   for (const Piece& piece : pieces) {
-    if (!runs_.isDoubtfulWall(piece.first) || !overlaps(piece, run, beams.revolution)) continue;
+    if (!runs_.isDoubtfulWall(piece.first) || !holds(run, piece, beams.revolution)) continue;
     lines += piece.chi_square + (kArcs.line_parameters + 1.0) * price;
     loose -= piece.beams;
   }

@@ -191,12 +191,20 @@ void LineExtractor::report(const scan::Scan& scan) {
     const EndPoint end = ends.end(piece, after);
     if (!isLong(piece, start, end)) continue;
     segments_.push_back(segmentOf(piece, start, end, scan));
-    if (!sweep_noise_.isZero()) {
-      sweep_noise_.widen(piece, config_.gate * config_.gate, segments_.back());
-    }
+    raiseCovariance(piece, segments_.back());
   }
   inOrderOfBeams(segments_);
   inOrderOfBeams(arcs_);
+}
+
+// A sensor that strays from its motion bends what is straight: the returns show it as they show a
+// wall that is not, and so only the larger of the two counts.
+void LineExtractor::raiseCovariance(const Piece& piece, geometry::LineSegment& segment) {
+  const double gate_squared = config_.gate * config_.gate;
+  const Eigen::Matrix2d uneven = unevenness(beams_, gate_squared, piece) * segment.line.covariance;
+  if (!sweep_noise_.isZero()) sweep_noise_.widen(piece, gate_squared, segment);
+  const Eigen::Matrix2d more = uneven - segment.line.covariance;
+  if (more.diagonal().minCoeff() > 0.0) segment.line.covariance = uneven;
 }
 
 // An end between two beams may lie anywhere there, however far they are apart on the line: what
@@ -217,7 +225,6 @@ geometry::LineSegment LineExtractor::segmentOf(const Piece& piece, const EndPoin
   const Eigen::Vector2d along(line.alongX(), line.alongY());
   geometry::LineSegment segment;
   segment.line = line.polar();
-  segment.line.covariance *= unevenness(beams_, config_.gate * config_.gate, piece);
   segment.ends = {foot + start.position * along, foot + end.position * along};
   segment.start_sigma = std::sqrt(start.variance);
   segment.end_sigma = std::sqrt(end.variance);

@@ -1,5 +1,6 @@
 #include "sightline/lines/merging.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sightline/geometry/statistics.h"
@@ -44,13 +45,13 @@ NormalEquations fusion(const LineEstimate& before, const LineEstimate& after, do
 }  // namespace
 
 double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after, double position,
-                          const Eigen::Matrix2d& motion_noise) {
+                          const Eigen::Matrix2d& other_noise) {
   const Difference d(before, after, position);
   const double da = 1.0 / d.of_before.determinant();
   const double db = 1.0 / d.of_after.determinant();
-  const double rho_rho = da * d.of_before.phi_phi + db * d.of_after.phi_phi + motion_noise(0, 0);
-  const double rho_phi = -da * d.of_before.rho_phi - db * d.of_after.rho_phi + motion_noise(0, 1);
-  const double phi_phi = da * d.of_before.rho_rho + db * d.of_after.rho_rho + motion_noise(1, 1);
+  const double rho_rho = da * d.of_before.phi_phi + db * d.of_after.phi_phi + other_noise(0, 0);
+  const double rho_phi = -da * d.of_before.rho_phi - db * d.of_after.rho_phi + other_noise(0, 1);
+  const double phi_phi = da * d.of_before.rho_rho + db * d.of_after.rho_rho + other_noise(1, 1);
   const double determinant = rho_rho * phi_phi - rho_phi * rho_phi;
   return (phi_phi * d.rho * d.rho - 2.0 * rho_phi * d.rho * d.phi + rho_rho * d.phi * d.phi) /
          determinant;
@@ -64,11 +65,18 @@ Merging::Merging(const BeamArray& beams, SweepNoise& sweep_noise, const LineExtr
       chi_square_ratio_(config.misfit),
       distance_limit_(geometry::chiSquareLimitOf2(config.gate)) {}
 
-bool Merging::mayBeOne(const Piece& before, const Piece& after, double position) const {
-  const Eigen::Matrix2d motion =
-      sweep_noise_.isZero() ? Eigen::Matrix2d::Zero()
-                            : sweep_noise_.ofDifference(before, after, position, gate_ * gate_);
-  return mahalanobisSquared(before.line, after.line, position, motion) <= distance_limit_;
+bool Merging::mayBeOne(const Piece& before, const Piece& after, double position, double gap) const {
+  Eigen::Matrix2d other = Eigen::Matrix2d::Zero();
+  other.diagonal() = shape_.difference(lengthOf(before), lengthOf(after), std::max(0.0, gap));
+  if (!sweep_noise_.isZero()) {
+    other += sweep_noise_.ofDifference(before, after, position, gate_ * gate_);
+  }
+  return mahalanobisSquared(before.line, after.line, position, other) <= distance_limit_;
+}
+
+double Merging::lengthOf(const Piece& piece) const {
+  constexpr double kLeast = 1e-3;  // m
+  return std::max(kLeast, extent(beams_, piece));
 }
 
 bool Merging::merge(Piece& before, const Piece& after) const {
@@ -79,7 +87,7 @@ bool Merging::merge(Piece& before, const Piece& after) const {
   const double length = next_position - position;
   if (!gap_.mayBridge(beams_, line, before.end - 1, after.first, length)) return false;
   const double between = 0.5 * (position + next_position);
-  if (!mayBeOne(before, after, between)) return false;
+  if (!mayBeOne(before, after, between, length)) return false;
   Piece joined = before;
   joined.end = after.end;
   joined.beams = 0.0;  // to be refined in full

@@ -25,7 +25,11 @@ constexpr RefineConstants kRefine{};
 struct BlockConstants {
   std::size_t most = 16;
   std::size_t fewest = 4;
-  double chance = 1.5;  // standard deviations of χ² over its degrees of freedom
+  double chance = 1.5;         // standard deviations of χ² over its degrees of freedom
+  double shared_chance = 2.5;  // the same of what the returns of a block share
+  // Chosen between what is right where each block strays by itself (1/14), and where the surface is
+  // a random walk, of which a line takes most for its own (3/2).
+  double share = 0.5;
 };
 constexpr BlockConstants kBlocks{};
 
@@ -113,8 +117,12 @@ double unevenness(const BeamArray& beams, double gate_squared, const Piece& piec
     const double total = sum(weight);
     if (total > 0.0) shared += sum(distance) * sum(distance) / total;
   }
+  // What the returns of a block do not share is noise, which may be less than it is taken for.
+  const double apart = (piece.chi_square - shared) / (piece.beams - static_cast<double>(blocks));
+  const double noise = std::clamp(apart, 0.0, 1.0);
   const double of_blocks = static_cast<double>(blocks) - 2.0;
-  return std::max({1.0, alone, shared / of_blocks - kBlocks.chance * std::sqrt(2.0 / of_blocks)});
+  const double by_chance = of_blocks + kBlocks.shared_chance * std::sqrt(2.0 * of_blocks);
+  return std::max({1.0, alone, 1.0 + kBlocks.share * (shared - noise * by_chance)});
 }
 
 double extent(const BeamArray& beams, const Piece& piece) {

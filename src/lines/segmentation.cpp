@@ -12,6 +12,7 @@ void Segmentation::reserve(std::size_t returns) {
   least_.resize(returns + 1);
   from_.resize(returns + 1);
   spans_.reserve(returns / kFewest + 1);
+  apart_.reserve(returns / kFewest + 1);
 }
 
 void Segmentation::divide(const BeamArray& beams, std::size_t first, std::size_t end,
@@ -91,14 +92,21 @@ void Segmentation::trace() {
   std::reverse(spans_.begin(), spans_.end());
 }
 
+// Joins the likeliest first, so that no wall depends on the side that it is come to from.
 void Segmentation::join() {
-  std::size_t kept = 0;
-  for (std::size_t i = 1; i < spans_.size(); ++i) {
-    const bool is_one =
-        breaks_.adjoin(spans_[kept], spans_[i]) && breaks_.join(spans_[kept], spans_[i]);
-    if (!is_one) spans_[++kept] = spans_[i];
+  const auto apartAt = [&](std::size_t i) { return breaks_.apart(spans_[i], spans_[i + 1]); };
+  apart_.clear();
+  for (std::size_t i = 0; i + 1 < spans_.size(); ++i) apart_.push_back(apartAt(i));
+  while (!apart_.empty()) {
+    const auto least = std::min_element(apart_.begin(), apart_.end());
+    if (*least >= breaks_.price()) return;
+    const auto i = static_cast<std::size_t>(least - apart_.begin());
+    spans_[i] = joined(spans_[i], spans_[i + 1]);
+    spans_.erase(spans_.begin() + (least - apart_.begin()) + 1);
+    apart_.erase(least);
+    if (i > 0) apart_[i - 1] = apartAt(i - 1);
+    if (i < apart_.size()) apart_[i] = apartAt(i);
   }
-  spans_.resize(std::min(kept + 1, spans_.size()));
 }
 
 void Segmentation::shareOutFragments() {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
 
 #include "sightline/geometry/statistics.h"
+#include "sightline/lines/beam_residuals.h"
 
 namespace sightline::lines {
 
@@ -14,8 +18,6 @@ struct SpanConstants {
   std::size_t fewest = 5;
   // Counted: a line of its own has a distance, a direction and a break.
   double line_freedom = 3.0;
-  // A wall that bends by less is one that is not quite straight [sine].
-  double least_bend = 0.05;
   // Lines that meet at more than this need no help to find where [sine].
   double most_bend = 0.6;
   // Chosen: atoms that a break may move by, and of a span that may be no more than a corner.
@@ -31,19 +33,28 @@ double bendBetween(const Span& before, const Span& after) {
   return a.normal_x * b.normal_y - a.normal_y * b.normal_x;
 }
 
-// Squared distance between two lines along the beam that they meet at, in standard deviations of
-// one return.
-double stepSquared(const BeamArray& beams, const Span& before, const Span& after) {
-  const std::size_t at = after.first;
-  const LineEstimate a = before.moments.line();
-  const LineEstimate b = after.moments.line();
-  const Eigen::Vector2d direction = beams.direction(at);
-  const auto range = [&](const LineEstimate& line) {
-    return line.rho / (line.normal_x * direction.x() + line.normal_y * direction.y());
-  };
-  const double step = range(a) - range(b);
-  return step * step / static_cast<double>(beams.slantVariances()[at]);
+double lengthOf(const BeamArray& beams, const Span& span) {
+  constexpr double kLeast = 1e-3;  // m
+  const std::size_t last = span.end - 1;
+  return std::max(kLeast, static_cast<double>(std::hypot(beams.x[last] - beams.x[span.first],
+                                                         beams.y[last] - beams.y[span.first])));
 }
+
+// Weighted mean of the distances of returns from a wall, stray ones apart, and the weight of all:
+// kLanes returns, as many as are looked at on one side of a break.
+struct MeanDistance {
+  MeanDistance(const BeamArray& beams, std::size_t first, const LineEstimate& wall,
+               const LineEstimate& own, double gate_squared) {
+    constexpr double kLeast = 1e-9;  // of a weight [1/m²]
+    const BeamResiduals of = residualsOf(beams, first, wall);
+    const Packet squared = residualsOf(beams, first, own).squared();
+    const Packet taken = squared <= static_cast<float>(gate_squared) ? of.weight : all(0.0F);
+    weight = std::max(kLeast, sum(taken));
+    mean = sum(Packet(taken * of.distance)) / weight;
+  }
+  double mean;
+  double weight;
+};
 
 }  // namespace
 
@@ -74,9 +85,7 @@ struct SpanBreaks::Break {
 };
 
 SpanBreaks::SpanBreaks(const LineExtractorConfig& config)
-    : gate_(config.gate),
-      misfit_(config.misfit),
-      price_(geometry::chiSquareLimit(config.gate, kSpan.line_freedom)),
+    : price_(geometry::chiSquareLimit(config.gate, kSpan.line_freedom)),
       stray_price_(config.gate * config.gate) {}
 
 void SpanBreaks::assign(const Atoms& atoms, const BeamArray& beams) {
@@ -155,29 +164,45 @@ void SpanBreaks::settleWithin(const Span& before, const Span& after, Break& best
   }
 }
 
-bool SpanBreaks::join(Span& before, const Span& after) const {
-  const double bend = std::abs(bendBetween(before, after));
-  if (bend > kSpan.most_bend) return false;
-  const Span whole = joined(before, after);
-  const double parts = costOf({before.end, after.first_atom, 0.0, before.moments, after.moments});
-  // A step that one return tells is none of unevenness.
-  const bool has_step = stepSquared(*beams_, before, after) > stray_price_;
-  if (!isOneWall(whole, parts, has_step ? kSpan.most_bend : bend)) return false;
-  before = whole;
-  return true;
+// A turn u' − u of lines u · p = 1 moves the line at a place on it, across it, by −ρ p · (u' − u),
+// and turns it by −ρ t · (u' − u) for the direction t along it; the covariance of u is the inverse
+// of the second moments.
+double SpanBreaks::apart(const Span& before, const Span& after) const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (!adjoin(before, after)) return kNever;
+  const LineEstimate wall = joined(before, after).moments.line();
+  const Eigen::Vector2d direction = beams_->direction(after.first);
+  const double facing = wall.normal_x * direction.x() + wall.normal_y * direction.y();
+  if (facing < static_cast<double>(kMinIncidence)) return kNever;
+  const double step = stepSquared(before, after, wall);
+  if (step > price_) return step;
+  Eigen::Matrix2d to_wall;
+  to_wall << wall.rho / facing * direction.transpose(), wall.alongX(), wall.alongY();
+  to_wall *= -wall.rho;
+  const Eigen::Matrix2d of_before = before.moments.covariance();
+  const Eigen::Matrix2d of_after = after.moments.covariance();
+  const Eigen::Vector2d difference =
+      to_wall * (of_before * before.moments.first() - of_after * after.moments.first());
+  Eigen::Matrix2d covariance = to_wall * (of_before + of_after) * to_wall.transpose();
+  covariance.diagonal() +=
+      shape_.difference(lengthOf(*beams_, before), lengthOf(*beams_, after), 0.0);
+  const double squared = difference.dot(covariance.inverse() * difference);
+  return squared >= 0.0 ? squared : kNever;  // what is not determined is no number
 }
 
-bool SpanBreaks::isOneWall(const Span& whole, double parts, double bend) const {
-  const double freedom = static_cast<double>(whole.end - whole.first) - 2.0;
-  if (bend < kSpan.least_bend &&
-      whole.cost <= misfit_ * misfit_ * geometry::chiSquareLimit(gate_, freedom)) {
-    return true;
-  }
-  // Where even two lines leave more than the noise does, it takes more to gain by chance.
-  const double rest = std::max(1.0, freedom - kSpan.line_freedom);
-  const double most = price_ * std::max(1.0, parts / rest);
-  // What the noise explains is one wall, be it as uneven as the noise.
-  return whole.cost - parts <= most || whole.cost - freedom <= 0.5 * most;
+// Squared step from the last returns before a break to the first after it, in standard deviations:
+// a wall is uneven by little over so few.
+double SpanBreaks::stepSquared(const Span& before, const Span& after,
+                               const LineEstimate& wall) const {
+  const std::size_t from = before.end - kLanes;
+  const std::size_t to = after.first + kLanes - 1;
+  const MeanDistance a(*beams_, from, wall, before.moments.line(), stray_price_);
+  const MeanDistance b(*beams_, after.first, wall, after.moments.line(), stray_price_);
+  const double length =
+      std::hypot(beams_->x[to] - beams_->x[from], beams_->y[to] - beams_->y[from]);
+  // Means over adjoining halves of a random walk differ by a third of what it strays over both.
+  const double variance = 1.0 / a.weight + 1.0 / b.weight + shape_.variance(length) / 3.0;
+  return (b.mean - a.mean) * (b.mean - a.mean) / variance;
 }
 
 // A corner in the midst of an atom leaves a short line between two.

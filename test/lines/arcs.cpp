@@ -70,6 +70,21 @@ TEST(Arcs, StandBeforeAWall) {
   }
 }
 
+// Residuals of a wall that is not straight leave room for doubt.
+TEST(Arcs, TakeNoWallThatGoesOnBehindThem) {
+  Gauss gauss(58);
+  ScanOf of = test::wallAhead(2.0, -2.0, 2.0);
+  of.posts.push_back({{0.3, 1.2}, 0.07});
+  of.noise.sigma = 0.013;
+  for (int i = 0; i < 50; ++i) {
+    scan::Scan scan = of.take(gauss);
+    scan.setRangeVariances(std::vector<double>(scan.beams(), 1e-4));
+    LineExtractor extractor;
+    EXPECT_EQ(extractor.extract(scan).size(), 1U);
+    EXPECT_EQ(extractor.arcs().size(), 1U);
+  }
+}
+
 TEST(Arcs, ARoundRoomIsOneAcrossTheSeam) {
   Gauss gauss(54);
   for (int i = 0; i < 20; ++i) {

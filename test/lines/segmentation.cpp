@@ -154,5 +154,19 @@ TEST(Segmentation, AWallThatIsNotQuiteStraightIsOne) {
   EXPECT_EQ(dividedInto(beams).size(), 1U);
 }
 
+TEST(Segmentation, AStepIsNoUnevenness) {
+  Gauss gauss(6);
+  BeamArray beams;
+  for (const double step : {-0.04, 0.04}) {
+    ScanOf of = test::wallAhead(2.0, 0.0, 2.0);
+    of.walls.push_back({{-2.0, 2.0 + step}, {0.0, 2.0 + step}});
+    of.noise.sigma = 0.01;
+    for (int i = 0; i < 50; ++i) {
+      beams.assign(of.take(gauss));
+      EXPECT_GE(dividedInto(beams).size(), 2U) << step;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sightline::lines

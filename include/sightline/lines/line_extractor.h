@@ -46,6 +46,7 @@ class LineExtractor {
   bool isSmall(const Piece& piece) const;
   void dropHidden();
   void report(const scan::Scan& scan);
+  void raiseCovariance(const Piece& piece, geometry::LineSegment& segment);
   bool isLong(const Piece& piece, const EndPoint& start, const EndPoint& end) const;
   geometry::LineSegment segmentOf(const Piece& piece, const EndPoint& start, const EndPoint& end,
                                   const scan::Scan& scan) const;

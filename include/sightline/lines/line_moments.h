@@ -47,6 +47,15 @@ struct LineMoments {
     if (!(determinant > kLeastDeterminant * xx * yy)) return one;
     return std::max(0.0, one - (yy * x * x - 2.0 * xy * x * y + xx * y * y) / determinant);
   }
+  /// Σ v p.
+  Eigen::Vector2d first() const { return {x, y}; }
+  /// Of u: the inverse of Σ v p pᵀ, which has to be determined.
+  Eigen::Matrix2d covariance() const {
+    const double scale = 1.0 / (xx * yy - xy * xy);
+    Eigen::Matrix2d result;
+    result << scale * yy, -scale * xy, -scale * xy, scale * xx;
+    return result;
+  }
   /// Normal and distance of that line, without information; the normal points away from the origin.
   LineEstimate line() const;
 };

@@ -6,15 +6,16 @@
 #include "sightline/lines/gap.h"
 #include "sightline/lines/piece.h"
 #include "sightline/lines/sweep_noise.h"
+#include "sightline/lines/wall_shape.h"
 
 namespace sightline::lines {
 
 /// Squared Mahalanobis distance of two lines in (ρ, φ), which has two degrees of freedom if they
 /// are one. The frame's origin is put on `before` at `position` for it: near the place where the
-/// pieces meet, the lines are nearly linear in their parameters. `motion_noise` is the covariance
-/// of their difference, seen from there, that the noise of the sensor's motion makes.
+/// pieces meet, the lines are nearly linear in their parameters. `other_noise` is the covariance
+/// of their difference, seen from there, that other things than the beams make.
 double mahalanobisSquared(const LineEstimate& before, const LineEstimate& after, double position,
-                          const Eigen::Matrix2d& motion_noise = Eigen::Matrix2d::Zero());
+                          const Eigen::Matrix2d& other_noise = Eigen::Matrix2d::Zero());
 
 /// Joins neighbouring pieces of one wall.
 class Merging {
@@ -26,11 +27,13 @@ class Merging {
   bool merge(Piece& before, const Piece& after) const;
 
  private:
-  bool mayBeOne(const Piece& before, const Piece& after, double position) const;
+  bool mayBeOne(const Piece& before, const Piece& after, double position, double gap) const;
+  double lengthOf(const Piece& piece) const;
 
   const BeamArray& beams_;
   SweepNoise& sweep_noise_;
   Gap gap_;
+  WallShape shape_;
   double gate_;
   double chi_square_ratio_;
   double distance_limit_;

@@ -56,6 +56,7 @@ class Segmentation {
   std::vector<double> least_;       // cost of the atoms before each
   std::vector<std::int32_t> from_;  // where the line that ends before an atom begins; −1: stray
   std::vector<Span> spans_;
+  std::vector<double> apart_;  // each from the next
 };
 
 }  // namespace sightline::lines

@@ -6,6 +6,7 @@
 #include "sightline/lines/beam_array.h"
 #include "sightline/lines/line_extractor_config.h"
 #include "sightline/lines/line_moments.h"
+#include "sightline/lines/wall_shape.h"
 
 namespace sightline::lines {
 
@@ -44,8 +45,10 @@ class SpanBreaks {
   /// Puts the break where two lines, fitted anew for every break and held together there, explain
   /// the returns best. Spans beyond a gap are left alone.
   void settle(Span& before, Span& after) const;
-  /// Makes one of two that adjoin, where that is likelier, or a wall that is not quite straight.
-  bool join(Span& before, const Span& after) const;
+  /// Squared distance between two spans as parts of one wall, in standard deviations of what noise
+  /// and the unevenness of walls make of it: they are one where it is below the price of a line.
+  /// Infinite where they do not adjoin.
+  double apart(const Span& before, const Span& after) const;
   /// Whether a short span is no more than the corner of its neighbours: gives it to the first then,
   /// with the break to be settled.
   bool shareOut(Span& before, const Span& fragment, const Span& after) const;
@@ -53,15 +56,14 @@ class SpanBreaks {
  private:
   struct Break;
 
-  bool isOneWall(const Span& whole, double parts, double bend) const;
+  double stepSquared(const Span& before, const Span& after, const LineEstimate& wall) const;
   void settleOnAtoms(const Span& before, const Span& after, Break& best) const;
   void settleWithin(const Span& before, const Span& after, Break& best) const;
   double costOf(const Break& of) const;
 
-  double gate_;
-  double misfit_;
   double price_;
   double stray_price_;
+  WallShape shape_;
   const Atoms* atoms_ = nullptr;
   const BeamArray* beams_ = nullptr;
 };
