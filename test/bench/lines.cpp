@@ -72,7 +72,8 @@ void otherWorlds() {
 }
 
 /// A recording with the noise learned, as the node has it, and with 1 cm given.
-void runRecording(const std::string& name, const std::vector<scan::Scan>& scans) {
+void runRecording(const std::string& name, const std::vector<scan::Scan>& scans,
+                  bool stands_still = false) {
   for (const bool is_given : {false, true}) {
     lines::LineExtractor extractor(settings());
     scan::LearnedNoise noise;
@@ -89,7 +90,7 @@ void runRecording(const std::string& name, const std::vector<scan::Scan>& scans)
     const std::string prefix = "lines." + name + (is_given ? ".given_1cm." : ".");
     explained.printFigures(prefix);
     print(prefix + "us_median", median(times), "us");
-    if (name == "two_hokuyos") standing.printFigures(prefix);
+    if (stands_still) standing.printFigures(prefix);
   }
 }
 
@@ -100,7 +101,9 @@ void runRecordings() {
     return;
   }
   const std::string folder(data);
-  runRecording("two_hokuyos", readScans(folder + "/two_hokuyos.bag", "/front_scan"));
+  const std::string standing = folder + "/two_hokuyos.bag";
+  runRecording("two_hokuyos", readScans(standing, "/front_scan"), true);
+  runRecording("two_hokuyos_rear", readScans(standing, "/rear_scan"), true);
   runRecording("fr079", readLog(folder + "/fr079.clf.gz"));
   runRecording("intel_part", readLog(folder + "/intel_part.clf.gz"));
 }
