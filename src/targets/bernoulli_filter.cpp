@@ -18,6 +18,15 @@ double seconds(std::int64_t nanoseconds) {
   return 1e-9 * static_cast<double>(nanoseconds);
 }
 
+Bernoulli lostMate(const LostMate& mate) {
+  Bernoulli bernoulli;
+  bernoulli.existence = 1.0;
+  bernoulli.stamp = mate.stamp;
+  bernoulli.mate = mate.robot;
+  bernoulli.mixture.push_back({1.0, mate.last.mean, mate.last.covariance, Mode::kMate});
+  return bernoulli;
+}
+
 // Weights of targets with measurements over those of both apart (Williams and Lau 2014); below them
 // those of known things, which compete for the measurements.
 Eigen::MatrixXd ratiosOf(const std::vector<Candidate>& candidates, const Look& look,
@@ -70,9 +79,25 @@ void BernoulliFilter::predict(Bernoulli& bernoulli) const {
   bernoulli.stamp = stamp_;
   bernoulli.existence *= std::exp(-duration / config_.lifetime);
   for (Component& component : bernoulli.mixture) {
-    const double noise =
-        component.mode == Mode::kMoving ? config_.moving_noise : config_.static_noise;
+    const bool is_moving = component.mode == Mode::kMoving || component.mode == Mode::kMate;
+    const double noise = is_moving ? config_.moving_noise : config_.static_noise;
     component.covariance.diagonal().array() += noise * duration;
+  }
+}
+
+// Robots that are lost go on as things that are seen, and are forgotten when their poses come.
+void BernoulliFilter::follow(const std::vector<LostMate>& lost) {
+  const auto is_back = [&](const Bernoulli& one) {
+    return one.mate && std::none_of(lost.begin(), lost.end(),
+                                    [&](const LostMate& mate) { return mate.robot == *one.mate; });
+  };
+  bernoullis_.erase(std::remove_if(bernoullis_.begin(), bernoullis_.end(), is_back),
+                    bernoullis_.end());
+  for (const LostMate& mate : lost) {
+    const bool is_followed =
+        std::any_of(bernoullis_.begin(), bernoullis_.end(),
+                    [&](const Bernoulli& one) { return one.mate && *one.mate == mate.robot; });
+    if (!is_followed) bernoullis_.push_back(lostMate(mate));
   }
 }
 
@@ -91,6 +116,7 @@ void BernoulliFilter::update(const BearingSet& set, const SensorModel& model) {
   stamp_ = std::max(stamp_, set.stamp);
   place_sigma_ = std::max(place_sigma_, model.config().bearing.place_sigma);
   const Look look(set, model);
+  follow(set.lost);
   std::vector<Candidate> candidates = candidatesOf(look);
   std::vector<Birth> births;
   std::vector<double> unknown;
@@ -134,6 +160,7 @@ void BernoulliFilter::add(const Birth& birth, double scale, double clutter, cons
 
 void BernoulliFilter::prune() {
   const auto is_unlikely = [&](const Bernoulli& bernoulli) {
+    if (bernoulli.mate) return false;  // as long as its pose does not come
     const double existence = targetExistence(bernoulli);
     if (existence >= config_.least_existence) return false;
     undetected_.add(bernoulli.mixture.front().mean, existence);

@@ -97,9 +97,10 @@ void Candidate::addSeen(const Bernoulli& bernoulli, std::size_t measurement, dou
   for (std::size_t j = 0; j < predictions_.size(); ++j) {
     const double share = probability * weight(measurement, j) / sums_[measurement];
     if (share < 1e-6) continue;
-    const double innovation =
-        geometry::wrapAngle(look_.bearing(measurement) - predictions_[j].polar.bearing);
-    mixture.push_back(updated(bernoulli.mixture[j], predictions_[j], innovation));
+    const Look::Innovation innovation = look_.innovation(measurement, predictions_[j]);
+    BearingPrediction prediction = predictions_[j];
+    prediction.variance = innovation.variance;
+    mixture.push_back(updated(bernoulli.mixture[j], prediction, innovation.error));
     mixture.back().weight = share * look_.inSight(mixture.back());
   }
 }

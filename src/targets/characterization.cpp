@@ -160,9 +160,10 @@ RobotCharacter characterOf(const std::vector<KnownLook>& looks,
   const Labels of_apart = label(apart, targets_map, labelling);
   character.visibility =
       fitVisibility(predictionsOf(apart, of_apart.opportunities, character.table));
-  // The errors of these labels are those that bias and lag leave.
+  // The errors of these labels are those that bias, lag and distortion leave.
   ErrorFit left = character.errors;
   left.bias = left.lag = 0.0;
+  left.distortion.reset();
   character.error_inflation = inflationOf(apart, of_apart.opportunities, left);
   places.add({apart, labelling, left, character.error_inflation});
   return character;
@@ -231,6 +232,7 @@ SensorModelConfig RobotCharacter::model() const {
   model.visibility = visibility;
   model.bearing.sigma = std::max(errors.sigma, 1e-4);
   model.bearing.bias = errors.bias;
+  model.bearing.distortion = errors.distortion;
   model.bearing.lag = std::clamp(errors.lag, -10.0, 10.0);
   model.bearing.tail = std::min(errors.tail, 10.0);
   model.bearing.inflation = std::min(error_inflation, 1e4);
@@ -242,7 +244,7 @@ SensorModelConfig RobotCharacter::model() const {
 SensorModelsConfig Characterization::models() const {
   SensorModelsConfig models;
   if (robots.empty()) return models;
-  models.common = robots.begin()->second.model();
+  models.common = teamCharacter(robots).model();
   for (const auto& [name, character] : robots) models.robots[name] = character.model();
   return models;
 }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "sightline/targets/characterization.h"
@@ -58,6 +60,13 @@ void addRobot(const std::string& name, const RobotCharacter& robot,
         "{:.2f} times sigma; errors last: the mean of many has {:.1f} times the variance",
         geometry::degrees(errors.sigma), geometry::degrees(errors.bias), 1e3 * errors.lag,
         1e3 * errors.lag_sigma, errors.tail, robot.error_inflation));
+    if (errors.distortion) {
+      const auto& by_bearing = errors.distortion->errors;
+      const auto [low, high] = std::minmax_element(by_bearing.begin(), by_bearing.end());
+      lines.push_back(fmt::format("  the bias depends on the bearing: {:.3f} to {:.3f} deg",
+                                  geometry::degrees(errors.bias + *low),
+                                  geometry::degrees(errors.bias + *high)));
+    }
   } else {
     lines.push_back("  sigma, bias, lag: undetermined by so few detections");
   }

@@ -1,103 +1,130 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
+#include <optional>
 #include <vector>
 
+#include <Eigen/LU>
+
+#include "sightline/targets/error_mixture.h"
 #include "sightline/targets/likelihood_fit.h"
 
 namespace sightline::targets {
 
 namespace {
 
-// A Gaussian, a wider one of the same mean, and an even background, by expectation maximisation.
-struct ErrorMixture {
-  static constexpr double kWide = 2.5;  // standard deviation of the wider one, in those of the core
+constexpr int kTerms = 5;  // at most: bias, turn rate, and three powers of the bearing
+using Terms = Eigen::Matrix<double, kTerms, 1>;
 
-  double sigma;
-  double bias = 0.0;
-  double core = 0.6;  // shares
-  double wide = 0.2;
-
-  static double gaussianAt(double scaled, double sigma) {
-    return std::exp(-0.5 * scaled * scaled) / (sigma * std::sqrt(2.0 * geometry::kPi));
-  }
-
-  // Probabilities that an error is of the core, and of the wider one.
-  std::pair<double, double> belongs(double error, double gate) const {
-    const double scaled = (error - bias) / sigma;
-    const double of_core = core * gaussianAt(scaled, sigma);
-    const double of_wide = wide * gaussianAt(scaled / kWide, kWide * sigma);
-    const double sum = of_core + of_wide + (1.0 - core - wide) / (2.0 * gate);
-    return {of_core / sum, of_wide / sum};
-  }
-
-  void step(const std::vector<double>& errors, double gate) {
-    double cores = 0.0;
-    double wides = 0.0;
-    double weights = 0.0;
-    double sum = 0.0;
-    double squares = 0.0;
-    for (const double error : errors) {
-      const auto [of_core, of_wide] = belongs(error, gate);
-      // The wider one's errors, scaled to the core's.
-      const double weight = of_core + of_wide / (kWide * kWide);
-      cores += of_core;
-      wides += of_wide;
-      weights += weight;
-      sum += weight * error;
-      squares += weight * error * error;
-    }
-    bias = sum / weights;
-    sigma = std::sqrt(std::max((squares - weights * bias * bias) / (cores + wides), 1e-10));
-    const auto count = static_cast<double>(errors.size());
-    core = std::min(cores / count, 1.0 - 1e-6);
-    wide = std::min(wides / count, 1.0 - 1e-6 - core);
-  }
-
-  // Standard deviation of both Gaussians together over that of the core.
-  double tail() const { return std::sqrt((core + kWide * kWide * wide) / (core + wide)); }
+// An error and what it may depend on.
+struct ErrorRow {
+  Terms terms;
+  double error = 0.0;
 };
 
-ErrorMixture mixtureOf(const std::vector<double>& errors, double gate) {
-  ErrorMixture mixture{gate / 3.0};
-  for (int i = 0; i < 200; ++i) mixture.step(errors, gate);
-  return mixture;
-}
+// Bearings between which nearly all detections lie.
+struct Extent {
+  double low = 0.0;
+  double high = 0.0;
 
-// What is left of errors when those of a lag are taken away.
-std::vector<double> withoutLag(const std::vector<KnownLook>& looks,
-                               const std::vector<Opportunity>& labelled, double lag) {
-  std::vector<double> errors;
+  // In [-1, 1] between them, held there beyond.
+  double scaled(double bearing) const {
+    const double width = std::max(high - low, 1e-9);
+    return std::clamp(2.0 * (bearing - low) / width - 1.0, -1.0, 1.0);
+  }
+};
+
+Extent extentOf(const std::vector<Opportunity>& labelled) {
+  constexpr std::size_t kThousand = 1000;
+  std::vector<double> bearings;
   for (const Opportunity& one : labelled) {
-    if (one.is_detected) errors.push_back(one.error - lag * looks[one.look].turn_rate);
+    if (one.is_detected) bearings.push_back(one.place.bearing);
   }
-  return errors;
+  std::sort(bearings.begin(), bearings.end());
+  const std::size_t cut = bearings.size() / kThousand;
+  return {bearings[cut], bearings[bearings.size() - 1 - cut]};
 }
 
-// Sums of the regression of errors on the turn rate.
-struct LagSums {
-  double rates = 0.0;
-  double products = 0.0;
-
-  void add(double weight, double rate, double error) {
-    rates += weight * rate * rate;
-    products += weight * rate * error;
-  }
-};
-
-// Weighs each error by how much of it belongs to the Gaussians once the lag found so far is gone.
-LagSums lagSums(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
-                const ErrorMixture& mixture, double lag, double gate) {
-  LagSums sums;
+std::vector<ErrorRow> rowsOf(const std::vector<KnownLook>& looks,
+                             const std::vector<Opportunity>& labelled, const Extent& extent) {
+  std::vector<ErrorRow> rows;
   for (const Opportunity& one : labelled) {
     if (!one.is_detected) continue;
-    const double rate = looks[one.look].turn_rate;
-    const auto [core, wide] = mixture.belongs(one.error - lag * rate, gate);
-    const double kept = core + wide / (ErrorMixture::kWide * ErrorMixture::kWide);
-    sums.add(kept, rate, one.error - mixture.bias);
+    const double u = extent.scaled(one.place.bearing);
+    ErrorRow row;
+    row.terms << 1.0, looks[one.look].turn_rate, u, u * u, u * u * u;
+    row.error = one.error;
+    rows.push_back(row);
   }
-  return sums;
+  return rows;
+}
+
+// Regression of errors on the first `terms` of what they may depend on, each error weighed by how
+// much of it belongs to the Gaussians once what was found so far is gone.
+struct ErrorRegression {
+  Terms slopes = Terms::Zero();
+  ErrorMixture mixture;
+  double lag_variance = 0.0;
+  double log_likelihood = 0.0;
+
+  ErrorRegression(const std::vector<ErrorRow>& rows, int terms, double gate) {
+    constexpr int kRounds = 15;
+    for (int round = 0; round < kRounds; ++round) {
+      mixture = ErrorMixture::of(leftOf(rows), gate);
+      solve(rows, terms, gate);
+    }
+    log_likelihood = mixture.logLikelihood(leftOf(rows), gate);
+  }
+
+  std::vector<double> leftOf(const std::vector<ErrorRow>& rows) const {
+    std::vector<double> left;
+    for (const ErrorRow& row : rows) left.push_back(row.error - slopes.dot(row.terms));
+    return left;
+  }
+
+ private:
+  void solve(const std::vector<ErrorRow>& rows, int terms, double gate) {
+    constexpr double kTiny = 1e-9;  // keeps what no error depends on at 0
+    Eigen::MatrixXd squares = kTiny * Eigen::MatrixXd::Identity(terms, terms);
+    Eigen::VectorXd products = Eigen::VectorXd::Zero(terms);
+    for (const ErrorRow& row : rows) {
+      const double weight = mixture.weightOf(row.error - slopes.dot(row.terms), gate);
+      squares += weight * row.terms.head(terms) * row.terms.head(terms).transpose();
+      products += weight * row.error * row.terms.head(terms);
+    }
+    const Eigen::MatrixXd inverse = squares.inverse();
+    slopes.head(terms) = inverse * products;
+    lag_variance = squares(1, 1) > 2.0 * kTiny ? std::pow(mixture.sigma, 2) * inverse(1, 1) : 0.0;
+  }
+};
+
+ErrorFit fitOf(const ErrorRegression& regression, std::size_t used) {
+  ErrorFit fit;
+  fit.sigma = regression.mixture.sigma;
+  fit.tail = regression.mixture.tail();
+  fit.bias = regression.slopes[0];
+  fit.lag = regression.slopes[1];
+  fit.lag_sigma = std::sqrt(regression.lag_variance);
+  fit.used = used;
+  return fit;
+}
+
+// The curve of the bearing by its values; the bias holds its mean over the detections.
+void addDistortion(const ErrorRegression& regression, const std::vector<ErrorRow>& rows,
+                   const Extent& extent, ErrorFit& fit) {
+  constexpr int kSpans = 12;
+  const auto curve = [&](double u) {
+    return u * (regression.slopes[2] + u * (regression.slopes[3] + u * regression.slopes[4]));
+  };
+  double mean = 0.0;
+  for (const ErrorRow& row : rows) mean += curve(row.terms[2]) / static_cast<double>(rows.size());
+  fit.bias += mean;
+  fit.distortion.emplace();
+  for (int i = 0; i <= kSpans; ++i) {
+    const double bearing = extent.low + (extent.high - extent.low) * i / kSpans;
+    fit.distortion->bearings.push_back(bearing);
+    fit.distortion->errors.push_back(curve(extent.scaled(bearing)) - mean);
+  }
 }
 
 }  // namespace
@@ -105,21 +132,21 @@ LagSums lagSums(const std::vector<KnownLook>& looks, const std::vector<Opportuni
 ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
                    double gate) {
   constexpr std::size_t kFewest = 30;
-  constexpr int kRounds = 15;
   ErrorFit result;
-  result.used = withoutLag(looks, labelled, 0.0).size();
+  result.used = static_cast<std::size_t>(std::count_if(
+      labelled.begin(), labelled.end(), [](const Opportunity& one) { return one.is_detected; }));
   if (result.used < kFewest) return result;
-  ErrorMixture mixture{gate / 3.0};
-  for (int round = 0; round < kRounds; ++round) {
-    mixture = mixtureOf(withoutLag(looks, labelled, result.lag), gate);
-    const LagSums sums = lagSums(looks, labelled, mixture, result.lag, gate);
-    if (sums.rates <= 0.0) break;
-    result.lag = sums.products / sums.rates;
-    result.lag_sigma = mixture.sigma / std::sqrt(sums.rates);
-  }
-  result.sigma = mixture.sigma;
-  result.bias = mixture.bias;
-  result.tail = mixture.tail();
+  const Extent extent = extentOf(labelled);
+  const std::vector<ErrorRow> rows = rowsOf(looks, labelled, extent);
+  const ErrorRegression even(rows, 2, gate);
+  result = fitOf(even, rows.size());
+  const ErrorRegression curved(rows, kTerms, gate);
+  // Bayes' criterion; errors that last are fewer than they look.
+  const double price = 0.5 * (kTerms - 2) * std::log(static_cast<double>(rows.size()));
+  const double gain = curved.log_likelihood - even.log_likelihood;
+  if (gain <= price * inflationOf(looks, labelled, result)) return result;
+  result = fitOf(curved, rows.size());
+  addDistortion(curved, rows, extent, result);
   return result;
 }
 
@@ -133,7 +160,8 @@ std::map<std::size_t, std::vector<double>> errorsByTarget(const std::vector<Know
   std::map<std::size_t, std::vector<double>> errors;
   for (const Opportunity& one : labelled) {
     if (!one.is_detected) continue;
-    const double left = one.error - fit.bias - fit.lag * looks[one.look].turn_rate;
+    const double left =
+        one.error - fit.biasAt(one.place.bearing) - fit.lag * looks[one.look].turn_rate;
     errors[one.target].push_back(std::clamp(left / (fit.sigma * fit.tail), -kFarthest, kFarthest));
   }
   return errors;
@@ -168,6 +196,20 @@ double inflationOf(const std::vector<KnownLook>& looks, const std::vector<Opport
   return inflation;
 }
 
+namespace {
+
+void addTo(std::optional<DistortionConfig>& sum, const std::optional<DistortionConfig>& more) {
+  if (!sum || !more) {
+    sum = sum ? sum : more;
+    return;
+  }
+  for (std::size_t i = 0; i < sum->bearings.size(); ++i) {
+    sum->errors[i] += more->at(sum->bearings[i]);
+  }
+}
+
+}  // namespace
+
 ErrorFit fitErrors(const std::vector<KnownLook>& looks,
                    const std::vector<Eigen::Vector2d>& targets_map, LabellingConfig& labelling) {
   constexpr int kRounds = 4;
@@ -181,10 +223,12 @@ ErrorFit fitErrors(const std::vector<KnownLook>& looks,
       labelling.sigma = left.sigma * left.tail;
     } else {
       errors.bias += left.bias;
+      addTo(errors.distortion, left.distortion);
       errors.lag += left.lag;
       errors.lag_sigma = left.lag_sigma;
     }
     labelling.bias = errors.bias;
+    labelling.distortion = errors.distortion;
     labelling.lag = errors.lag;
   }
   return errors;

@@ -20,7 +20,8 @@ struct LabelPair {
 
 double errorOf(double bearing, const Opportunity& opportunity, const KnownLook& look,
                const LabellingConfig& config) {
-  return geometry::wrapAngle(bearing - opportunity.place.bearing - config.bias -
+  return geometry::wrapAngle(bearing - opportunity.place.bearing -
+                             config.biasAt(opportunity.place.bearing) -
                              config.lag * look.turn_rate);
 }
 
@@ -98,7 +99,8 @@ bool isMate(double bearing, const KnownLook& look, const LabellingConfig& config
         constexpr double kHalfWidth = 0.15;
         const Polar place = polarOf(T_sensor_map * mate);
         const double reach = config.gate * config.sigma + kHalfWidth / std::max(place.range, 0.3);
-        return std::abs(geometry::wrapAngle(bearing - place.bearing - config.bias)) <= reach;
+        return std::abs(geometry::wrapAngle(bearing - place.bearing -
+                                            config.biasAt(place.bearing))) <= reach;
       });
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sightline/targets/error_mixture.h"
+
 namespace sightline::targets {
 
 namespace {
@@ -47,9 +49,10 @@ Look::Look(const BearingSet& set, const SensorModel& model)
       field_of_view_(set.field_of_view.within(model.config().field_of_view)),
       sigma_(std::max(model.config().bearing.sigma * model.config().bearing.tail, set.sigma)) {
   const BearingConfig& errors = model.config().bearing;
+  splitErrors(errors.tail);
   for (const double bearing : set.bearings) {
     const double late = errors.lag * set.turn_rate;
-    bearings_.push_back(geometry::wrapAngle(bearing - errors.bias - late));
+    bearings_.push_back(errors.trueBearing(geometry::wrapAngle(bearing - late)));
     clutter_.push_back(model.clutter(bearings_.back(), set.T_map_sensor.mean));
   }
   for (const UncertainPoint& point : set.known) {
@@ -98,11 +101,40 @@ double Look::inSight(const Component& component) const {
   });
 }
 
-double Look::likelihood(std::size_t measurement, const BearingPrediction& prediction) const {
+// A core and a wider Gaussian, as ErrorMixture, whose standard deviation together is `tail` times
+// that of the core.
+void Look::splitErrors(double tail) {
+  const double wide = std::max(ErrorMixture::kWide, tail);
+  const double share = (tail * tail - 1.0) / (wide * wide - 1.0);
+  const double core_variance = std::pow(sigma_ / tail, 2);
+  parts_[0] = {1.0 - share, core_variance - sigma_ * sigma_};
+  parts_[1] = {share, wide * wide * core_variance - sigma_ * sigma_};
+}
+
+std::array<Look::PartDensity, 2> Look::partsAt(std::size_t measurement,
+                                               const BearingPrediction& prediction) const {
   constexpr double kGate = 25.0;
   const double error = geometry::wrapAngle(bearings_[measurement] - prediction.polar.bearing);
-  if (error * error > kGate * prediction.variance) return 0.0;
-  return gaussian(error, prediction.variance);
+  std::array<PartDensity, 2> densities{};
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const double variance = prediction.variance + parts_[i].extra;
+    const bool is_inside = parts_[i].share > 0.0 && error * error <= kGate * variance;
+    densities[i] = {is_inside ? parts_[i].share * gaussian(error, variance) : 0.0, variance};
+  }
+  return densities;
+}
+
+double Look::likelihood(std::size_t measurement, const BearingPrediction& prediction) const {
+  const auto parts = partsAt(measurement, prediction);
+  return parts[0].density + parts[1].density;
+}
+
+Look::Innovation Look::innovation(std::size_t measurement,
+                                  const BearingPrediction& prediction) const {
+  const auto parts = partsAt(measurement, prediction);
+  const double weight = parts[0].density / parts[0].variance + parts[1].density / parts[1].variance;
+  const double error = geometry::wrapAngle(bearings_[measurement] - prediction.polar.bearing);
+  return {error, (parts[0].density + parts[1].density) / weight};
 }
 
 namespace {

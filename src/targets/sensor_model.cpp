@@ -60,7 +60,8 @@ bool SensorModel::isInSight(const Eigen::Vector2d& target_map,
 }
 
 double SensorModel::likelihood(double bearing, const Polar& target) const {
-  const double error = geometry::wrapAngle(bearing - target.bearing - config_.bearing.bias);
+  const double error =
+      geometry::wrapAngle(bearing - target.bearing - config_.bearing.biasAt(target.bearing));
   double density = 0.0;
   for (const double turn : {-2.0, 0.0, 2.0}) {
     density += normalDensity(error + turn * geometry::kPi, config_.bearing.sigma);

@@ -1,6 +1,7 @@
 #include "sightline/targets/sensor_model_config.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ constexpr config::Range kBearing{-geometry::kPi, geometry::kPi};
 
 bool isRising(const std::vector<double>& edges) {
   return edges.size() >= 2 &&
-         std::is_sorted(edges.begin(), edges.end(), [](double a, double b) { return a <= b; });
+         std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<>()) == edges.end();
 }
 
 void checkTable(const DetectionTable& table, const std::string& source) {
@@ -28,6 +29,14 @@ void checkTable(const DetectionTable& table, const std::string& source) {
   if (table.probabilities.size() == bins) return;
   refuse("probabilities",
          fmt::format("{} numbers where the edges make {} bins", table.probabilities.size(), bins));
+}
+
+void checkDistortion(const DistortionConfig& distortion, const std::string& source) {
+  const auto refuse = [&](const char* key, const char* reason) {
+    throw config::Error(source, 0, std::string("bearing.distortion.") + key, reason);
+  };
+  if (!isRising(distortion.bearings)) refuse("bearings", "two or more rising numbers are needed");
+  if (distortion.errors.size() != distortion.bearings.size()) refuse("errors", "one a bearing");
 }
 
 // The bin of a value; nothing outside.
@@ -87,15 +96,37 @@ void VisibilityConfig::visit(config::FieldVisitor& visitor) {
                  {"s", {1e-3, 1e5}, "time constant after which it may be otherwise"});
 }
 
+double DistortionConfig::at(double bearing) const {
+  const double inside = std::clamp(bearing, bearings.front(), bearings.back());
+  const std::size_t left = binOf(bearings, inside).value();
+  const double share = (inside - bearings[left]) / (bearings[left + 1] - bearings[left]);
+  return errors[left] + share * (errors[left + 1] - errors[left]);
+}
+
+void DistortionConfig::visit(config::FieldVisitor& visitor) {
+  visitor.numbers("bearings", bearings, {"rad", kBearing, "true bearings, rising"});
+  visitor.numbers("errors", errors,
+                  {"rad", {-1.0, 1.0}, "measured less true bearing at each of them, besides bias"});
+}
+
+// Errors change so little over one of them that two steps suffice.
+double BearingConfig::trueBearing(double measured) const {
+  const double first = geometry::wrapAngle(measured - biasAt(measured));
+  return geometry::wrapAngle(measured - biasAt(first));
+}
+
 void BearingConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("sigma", sigma,
                  {"rad", {1e-6, 1.0}, "standard deviation of a bearing, sigma (dames eq. 2)"});
   visitor.number("bias", bias, {"rad", {-1.0, 1.0}, "measured less true bearing"});
+  visitor.group("distortion", distortion);
   visitor.number(
       "lag", lag,
       {"s", {-10.0, 10.0}, "time that looks are stamped late, made good by the turn rate"});
   visitor.number("tail", tail,
-                 {"1", {1.0, 10.0}, "factor on sigma in filters, for errors with heavy tails"});
+                 {"1",
+                  {1.0, 10.0},
+                  "standard deviation of all errors over sigma, for errors with heavy tails"});
   visitor.number(
       "inflation", inflation,
       {"1",
@@ -149,6 +180,7 @@ void SensorModelConfig::check(const std::string& source) const {
   if (detection.range_min >= detection.range_max)
     refuse("detection.range_min", "not below range_max");
   if (detection.table) checkTable(*detection.table, source);
+  if (bearing.distortion) checkDistortion(*bearing.distortion, source);
   if (clutter.glint_share + clutter.faint_share > 1.0) {
     refuse("clutter.faint_share", "with glint_share above 1");
   }

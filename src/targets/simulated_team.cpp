@@ -68,7 +68,7 @@ void BearingSampler::sample(const std::vector<Eigen::Vector2d>& targets_map,
     const double detection = model_.detection(targets_map[i], set.T_map_sensor) / share;
     if (detection <= 0.0 || uniform(0.0, 1.0) >= detection) continue;
     const Polar place = polarOf(T_sensor_map * targets_map[i]);
-    add(place.bearing + bearing.bias + normal(random_, bearing.sigma), i, set);
+    add(place.bearing + bearing.biasAt(place.bearing) + normal(random_, bearing.sigma), i, set);
   }
   const int clutter = clutterCount();
   for (int i = 0; i < clutter; ++i) add(clutterBearing(), std::nullopt, set);

@@ -77,16 +77,20 @@ bool TargetTracker::isNew(const Robot& robot, const BearingSet& set) const {
          set.stamp - robot.counted_stamp >= toNanoseconds(config_.spacing.rest);
 }
 
-// Robots that were there at about the same time.
+// Where robots were at about the same time, and where those were that have fallen silent since.
 void TargetTracker::addMates(const Robot& robot, BearingSet& set) const {
   constexpr std::int64_t kSameTime = 1'000'000'000;
   if (!config_.explain_mates) return;
   for (const auto& [name, mate] : robots_) {
-    if (mate.index == robot.index || std::abs(mate.stamp - set.stamp) > kSameTime) continue;
+    if (mate.index == robot.index) continue;
     UncertainPoint point{mate.T_map_sensor.mean.translation(),
                          mate.T_map_sensor.covariance.topLeftCorner<2, 2>()};
     point.covariance.diagonal().array() += config_.mate_sigma * config_.mate_sigma;
-    set.known.push_back(point);
+    if (mate.stamp < set.stamp - kSameTime) {
+      set.lost.push_back({mate.index, point, mate.stamp});
+    } else if (mate.stamp <= set.stamp + kSameTime) {
+      set.known.push_back(point);
+    }
   }
 }
 

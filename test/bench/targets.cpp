@@ -15,8 +15,10 @@
 #include "targets/node.h"
 #include "targets/real.h"
 #include "targets/real_sensor.h"
+#include "targets/scale.h"
 #include "targets/search.h"
 #include "targets/team.h"
+#include "targets/wrong.h"
 
 namespace {
 
@@ -49,14 +51,17 @@ struct Part {
 
 int main(int argc, char** argv) {
   const int seeds = seedsOf(20);
+  const auto picture = [&](const char* name) {
+    return std::filesystem::path(argv[0]).replace_filename(name).string();
+  };
   const Part parts[] = {
       {"clutter", [] { bench::measureClutter(); }},
       {"detector", [&] { bench::measureDetector(seedsOf(6)); }},
       {"team", [&] { bench::measureTeams(seeds); }},
       {"fit", [&] { bench::measureFits(seeds); }},
       {"search", [&] { bench::measureSearch(seeds); }},
-      {"wrong", [] { bench::measureWrongModels(seedsOf(4)); }},
-      {"scale", [] { bench::measureScale(seedsOf(3)); }},
+      {"wrong", [&] { bench::measureWrongModels(seedsOf(4), picture("targets_wrong.png")); }},
+      {"scale", [&] { bench::measureScale(seedsOf(3), picture("targets_scale.png")); }},
       {"node", [] { bench::measureTrackerNode(60.0); }},
       {"real", measureRealTeam},
   };

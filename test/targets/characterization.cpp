@@ -168,6 +168,52 @@ TEST(Errors, FindBiasAndLagInTails) {
   EXPECT_NEAR(fit.tail, std::sqrt(0.9 + 0.1 * 6.25), 0.05);
 }
 
+// A lens: more the farther from its middle, and not alike on both sides.
+double lensError(double bearing) {
+  return 0.01 * bearing + 0.05 * bearing * bearing;
+}
+
+TEST(Errors, FindWhatALensDoes) {
+  for (const bool is_lens : {true, false}) {
+    test::Gauss gauss(6);
+    std::vector<KnownLook> looks;
+    std::vector<Opportunity> labelled;
+    for (std::size_t i = 0; i < 4000; ++i) {
+      KnownLook look;
+      look.turn_rate = gauss(0.3);
+      const double bearing = -0.6 + 1.2 * static_cast<double>(i % 997) / 997.0;
+      const double lens = is_lens ? lensError(bearing) : 0.0;
+      const double error = 0.01 + lens + 0.03 * look.turn_rate + gauss(0.006);
+      labelled.push_back({i, i % 7, {2.0, bearing}, true, error});
+      looks.push_back(look);
+    }
+    const ErrorFit fit = fitErrors(looks, labelled, 0.1);
+    EXPECT_EQ(fit.distortion.has_value(), is_lens);
+    EXPECT_NEAR(fit.sigma, 0.006, 4e-4);
+    EXPECT_NEAR(fit.lag, 0.03, 3.0 * fit.lag_sigma);
+    for (const double bearing : {-0.5, -0.2, 0.1, 0.5}) {
+      EXPECT_NEAR(fit.biasAt(bearing), 0.01 + (is_lens ? lensError(bearing) : 0.0), 8e-4);
+    }
+  }
+}
+
+TEST(TeamCharacter, LiesBetweenItsRobots) {
+  RobotCharacter dim;
+  dim.opportunities = 100;
+  dim.table = {{0.0, 1.0}, {-1.0, 1.0}, {0.2}};
+  dim.errors.sigma = 0.01;
+  dim.errors.bias = -0.02;
+  RobotCharacter bright = dim;
+  bright.table.probabilities = {0.4};
+  bright.errors.bias = 0.02;
+  const RobotCharacter team = teamCharacter({{"a", dim}, {"b", bright}});
+  EXPECT_NEAR(team.table.probabilities[0], 0.3, 1e-12);
+  EXPECT_NEAR(team.errors.bias, 0.0, 1e-12);
+  EXPECT_NEAR(team.errors.sigma, std::hypot(0.01, 0.02), 1e-12);
+  EXPECT_EQ(team.visibility.share, 1.0);
+  EXPECT_NO_THROW(team.model().check());
+}
+
 // Errors of a first-order process: the sum of its correlations is known.
 TEST(Errors, ThatLastDoNotAverageOut) {
   for (const double kept : {0.0, 0.8}) {

@@ -63,29 +63,5 @@ TEST(Candidate, AGlintIsSeenFromOneSide) {
   EXPECT_LT(seen({0.0, 1.0, 0.0}), 1e-9);
 }
 
-TEST(Look, TakesOffWhatLatenessMakesOfTurning) {
-  SensorModelConfig config;
-  config.bearing.bias = 0.01;
-  config.bearing.lag = 0.04;
-  const SensorModel model(config);
-  BearingSet set = test::lookFrom({}, {0.3});
-  set.turn_rate = 0.5;
-  EXPECT_NEAR(Look(set, model).bearing(0), 0.3 - 0.01 - 0.02, 1e-12);
-}
-
-// Half of what a component covers lies behind a wall.
-TEST(Look, SeesOfAComponentWhatNoWallHides) {
-  world::World world;
-  world.add(world::WorldSegment{geometry::Segment{{2.0, -3.0}, {2.0, 3.0}}});
-  const SensorModel model({}, std::make_shared<WorldSight>(world, 0.3));
-  const BearingSet set = test::lookFrom({}, {});
-  const Look look(set, model);
-  Component component{1.0, {1.9, 0.0}, Eigen::Vector2d(0.25, 0.0001).asDiagonal()};
-  const double wide = look.detection(component, polarOf(component.mean));
-  component.covariance *= 1e-3;
-  const double narrow = look.detection(component, polarOf(component.mean));
-  EXPECT_NEAR(wide, 0.75 * narrow, 0.1 * narrow);
-}
-
 }  // namespace
 }  // namespace sightline::targets

@@ -105,11 +105,14 @@ TEST(SensorModel, WallsHideTargets) {
 
 TEST(SensorModelConfig, SurvivesBeingWrittenAndRead) {
   SensorModelConfig config;
+  config.bearing.distortion = DistortionConfig{{-0.5, 0.0, 0.5}, {0.01, 0.0, 0.03}};
   config.bearing.bias = 0.012345678901234567;
   config.detection.table = DetectionTable{{0.0, 1.0}, {-1.0, 1.0}, {0.25}};
   SensorModelConfig read;
   config::read(config::Node::parse(config::toYaml(config), "model.yaml"), read);
   EXPECT_EQ(read.bearing.bias, config.bearing.bias);
+  ASSERT_TRUE(read.bearing.distortion.has_value());
+  EXPECT_EQ(read.bearing.distortion->errors, config.bearing.distortion->errors);
   EXPECT_EQ(read.detection.table->probabilities, config.detection.table->probabilities);
 }
 

@@ -92,6 +92,37 @@ TEST(TargetTracker, MatesAreNoTargets) {
   }
 }
 
+// A robot whose pose stops coming is still there to be seen: it stands, then drives off slowly.
+TEST(TargetTracker, ARobotThatFallsSilentIsNoTarget) {
+  constexpr int kHeard = 6;
+  TargetTracker tracker({});
+  for (int i = 0; i < 60; ++i) {
+    const geometry::Pose2 pose(0.2 * (i % 20), -1.0, 1.5);
+    const geometry::Pose2 mate(2.0, 1.0 + (i < 30 ? 0.0 : 0.02 * (i - 30)), 1.5);
+    BearingSet of_mate = lookAt(10.0 + i, mate);
+    of_mate.bearings.clear();
+    if (i < kHeard) tracker.take("robot2", of_mate);
+    BearingSet set = lookAt(10.0 + i, pose);
+    set.bearings = {polarOf(pose.inverse() * mate.translation()).bearing};
+    tracker.take("robot1", set);
+    EXPECT_TRUE(tracker.estimate().targets.empty()) << i;
+  }
+}
+
+TEST(BernoulliFilter, ForgetsALostRobotWhosePoseComes) {
+  BernoulliFilter filter;
+  BearingSet set = lookAt(10.0);
+  set.bearings.clear();
+  set.lost.push_back({1, {{2.0, 0.0}, Eigen::Matrix2d::Identity() * 0.01}, set.stamp});
+  filter.update(set, SensorModel());
+  filter.update(set, SensorModel());
+  ASSERT_EQ(filter.bernoullis().size(), 1U);
+  EXPECT_EQ(targetExistence(filter.bernoullis().front()), 0.0);
+  set.lost.clear();
+  filter.update(set, SensorModel());
+  EXPECT_TRUE(filter.bernoullis().empty());
+}
+
 TEST(TargetTracker, ForgetsAllWhenReset) {
   TargetTracker tracker({});
   tracker.take("robot1", lookAt(4000.0));

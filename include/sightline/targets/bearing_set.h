@@ -17,6 +17,13 @@ struct UncertainPoint {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
+/// A robot of the team whose pose has not come for a while: it is somewhere about where it was.
+struct LostMate {
+  std::size_t robot = 0;
+  UncertainPoint last;     ///< where it was
+  std::int64_t stamp = 0;  ///< at that time [ns]
+};
+
 /// What one robot saw in one look: bearings [rad] in the sensor frame, none where it saw nothing.
 struct BearingSet {
   std::size_t robot = 0;                  ///< counts from 0
@@ -28,6 +35,7 @@ struct BearingSet {
   double sigma = 0.0;                 ///< of a bearing as the detector states it; 0: unknown [rad]
   double range_max = 1e9;             ///< [m]
   std::vector<UncertainPoint> known;  ///< things that are no targets and seen like these: robots
+  std::vector<LostMate> lost;         ///< other ones, whose places are not known
 };
 
 }  // namespace sightline::targets

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +18,7 @@ enum class Mode {
   kMoving,    ///< a target that walks at random
   kGlint,     ///< no target: a surface that shines towards one side, such as a sheet of metal
   kFaint,     ///< no target: something that is seldom seen, from any side, such as a metal pole
+  kMate,      ///< no target: a robot of the team whose pose does not come any more
 };
 inline bool isTarget(Mode mode) {
   return mode == Mode::kStanding || mode == Mode::kMoving;
@@ -45,6 +47,7 @@ struct Bernoulli {
   std::int64_t stamp = 0;   ///< to which it has been predicted [ns]
   std::uint32_t label = 0;  ///< 0: never reported yet
   std::vector<Visibility> visibility;  ///< by robot
+  std::optional<std::size_t> mate;     ///< the robot that it is, where it is one
 };
 
 /// Bearing of a point from an uncertain pose, linearised.
@@ -67,7 +70,8 @@ BearingJacobians bearingJacobians(const Eigen::Vector2d& point_map,
 
 BearingPrediction predictBearing(const Component& component,
                                  const geometry::UncertainPose2& T_map_sensor, double sigma);
-/// The component after a bearing that differs by `innovation` [rad] from the predicted one.
+/// The component after a bearing that differs by `innovation` [rad] from the predicted one, whose
+/// variance the prediction tells.
 Component updated(const Component& component, const BearingPrediction& prediction,
                   double innovation);
 

@@ -12,7 +12,7 @@ namespace sightline::targets {
 /// Settings of BernoulliFilter.
 struct BernoulliFilterConfig {
   UndetectedConfig undetected;
-  int ranges = 6;                 ///< Gaussians that a bearing starts, log-spaced in range
+  int ranges = 12;                ///< Gaussians that a bearing starts, log-spaced in range
   int components = 8;             ///< Gaussians kept of a target
   double nearest = 0.3;           ///< range at which the Gaussians of a bearing begin [m]
   double static_noise = 1e-6;     ///< of a target that stands still [m²/s]
@@ -44,6 +44,7 @@ class BernoulliFilter : public TargetFilter {
   const Undetected& undetected() const { return undetected_; }
 
  private:
+  void follow(const std::vector<LostMate>& lost);
   void predict(Bernoulli& bernoulli) const;
   std::vector<Candidate> candidatesOf(const Look& look);
   void add(const Birth& birth, double scale, double clutter, const Look& look);

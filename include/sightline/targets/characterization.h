@@ -47,6 +47,10 @@ struct RobotCharacter {
   SensorModelConfig model() const;
 };
 
+/// What a robot of that team is like of which there are too few looks: the mean of the others, by
+/// their opportunities, with biases as different. One robot at least is needed.
+RobotCharacter teamCharacter(const std::map<std::string, RobotCharacter>& robots);
+
 /// All that was found.
 struct Characterization {
   std::size_t looks = 0;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,9 +59,14 @@ struct LabellingConfig {
   double gate = 3.0;                       ///< of errors, in σ (dames section 3.1)
   double bias = 0.0;                       ///< measured less true bearing [rad]
   double lag = 0.0;  ///< time that looks are stamped late, made good by the turn rate [s]
+  std::optional<DistortionConfig> distortion;  ///< of the sensor, besides its bias
   LabellingMethod method = LabellingMethod::kOptimal;
   /// Tells targets that a wall hides, which are no misses; none: nothing hides a target.
   std::shared_ptr<const LineOfSight> sight = nullptr;
+
+  double biasAt(double bearing) const {
+    return bias + (distortion ? distortion->at(bearing) : 0.0);
+  }
 };
 
 /// Gives each target in view one measurement at most, and each measurement one target at most.

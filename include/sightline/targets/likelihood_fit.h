@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,15 +42,20 @@ ClutterLikelihood fitClutterLikelihood(const std::vector<ClutterBearing>& clutte
 /// Measurement model, dames eq. 2, with what real sensors need besides.
 struct ErrorFit {
   double sigma = 0.0;      ///< of the core [rad]
-  double bias = 0.0;       ///< [rad]
+  double bias = 0.0;       ///< mean over detections [rad]
   double lag = 0.0;        ///< [s]
   double lag_sigma = 0.0;  ///< standard deviation of the lag [s]
   double tail = 1.0;       ///< standard deviation of all errors over that of the core
   std::size_t used = 0;
+  std::optional<DistortionConfig> distortion;  ///< where errors depend on the bearing
+
+  double biasAt(double bearing) const {
+    return bias + (distortion ? distortion->at(bearing) : 0.0);
+  }
 };
 /// A Gaussian, one 2.5 times as wide and an even background by expectation maximisation, within
-/// `gate` [rad]; the lag by regression of errors on the turn rate. Errors are those of labels
-/// without bias and lag.
+/// `gate` [rad]; bias, lag and distortion by regression of errors on the turn rate and, where that
+/// pays, on three powers of the bearing. Errors are those of labels without bias, lag, distortion.
 ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
                    double gate);
 /// The same by labels that know bias and lag better each time: those without draw bearings to the

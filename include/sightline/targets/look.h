@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -18,6 +19,7 @@ class Look {
   const SensorModel& model() const { return model_; }
   const geometry::UncertainPose2& pose() const { return set_.T_map_sensor; }
   const FieldOfView& fieldOfView() const { return field_of_view_; }
+  /// Standard deviation of a bearing, tails included [rad].
   double sigma() const { return sigma_; }
   std::size_t size() const { return bearings_.size(); }
   /// Bearing without the sensor's bias and what its lag makes of the robot's turning [rad].
@@ -38,14 +40,35 @@ class Look {
   double detection(const Component& component, const Polar& mean) const;
   /// Share of a component's spread that no wall hides [0, 1].
   double inSight(const Component& component) const;
-  /// Density [1/rad] of a measurement from a predicted component.
+  /// Density [1/rad] of a measurement from a predicted component: a Gaussian, and a wider one for
+  /// the tails.
   double likelihood(std::size_t measurement, const BearingPrediction& prediction) const;
+  /// Difference of a measurement from a predicted component [rad], and its variance [rad²] as far
+  /// as it is of the one Gaussian or of the other.
+  struct Innovation {
+    double error;
+    double variance;
+  };
+  Innovation innovation(std::size_t measurement, const BearingPrediction& prediction) const;
 
  private:
   struct Known {
     BearingPrediction prediction;
     double detection;
   };
+  // One of the Gaussians of errors.
+  struct ErrorPart {
+    double share;
+    double extra;  // variance over that of all errors together [rad²]
+  };
+  // Densities of an error by the parts, each with its variance.
+  struct PartDensity {
+    double density;
+    double variance;
+  };
+  std::array<PartDensity, 2> partsAt(std::size_t measurement,
+                                     const BearingPrediction& prediction) const;
+  void splitErrors(double tail);
   double detectionAt(const Eigen::Vector2d& point_map) const;
 
   const BearingSet& set_;
@@ -53,6 +76,7 @@ class Look {
   geometry::Pose2 T_sensor_map_;
   FieldOfView field_of_view_;
   double sigma_;
+  std::array<ErrorPart, 2> parts_;
   std::vector<double> bearings_;
   std::vector<double> clutter_;
   std::vector<Known> known_;

@@ -52,18 +52,36 @@ struct VisibilityConfig {
   void visit(config::FieldVisitor& visitor);
 };
 
+/// Error that a sensor makes at one bearing again and again, such as that of a lens: by bearing,
+/// linear between those given, constant beyond them.
+struct DistortionConfig {
+  std::vector<double> bearings;  ///< true ones, rising [rad]
+  std::vector<double> errors;    ///< measured less true bearing, one each, besides the bias [rad]
+
+  double at(double bearing) const;
+  void visit(config::FieldVisitor& visitor);
+};
+
 /// Measurement model, dames eq. 2.
 struct BearingConfig {
-  double sigma = geometry::radians(2.25);  ///< standard deviation [rad]
-  double bias = 0.0;                       ///< measured less true bearing [rad]
+  double sigma = geometry::radians(2.25);      ///< standard deviation [rad]
+  double bias = 0.0;                           ///< measured less true bearing [rad]
+  std::optional<DistortionConfig> distortion;  ///< what the bias is more or less by bearing
   double lag = 0.0;  ///< time that looks are stamped late, by which they err as the robot turns [s]
-  double tail = 1.0;  ///< factor on σ in filters, for errors with heavier tails than a Gaussian
+  /// Standard deviation of all errors over σ: filters add a Gaussian 2.5 times as wide, for tails.
+  double tail = 1.0;
   /// Variance of the mean of many bearings of one target over that of independent ones: errors that
   /// last over looks do not average out.
   double inflation = 1.0;
   /// Standard deviation, in x and in y, of where a target is from where all bearings see it [m].
   double place_sigma = 0.0;
 
+  /// Measured less true bearing of a sensor at rest [rad].
+  double biasAt(double bearing) const {
+    return bias + (distortion ? distortion->at(bearing) : 0.0);
+  }
+  /// The true bearing that is measured as this one at rest [rad].
+  double trueBearing(double measured) const;
   void visit(config::FieldVisitor& visitor);
 };
 

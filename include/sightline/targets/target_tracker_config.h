@@ -14,8 +14,8 @@ enum class FilterMethod {
   kPhd,        ///< PhdFilter, the paper's
 };
 
-/// Models of the sensors of a team, as characterize_bearing_sensor writes them: one for all, and
-/// those of robots that differ, by name.
+/// Models of the sensors of a team, as characterize_bearing_sensor writes them: one for robots that
+/// it knows too little of, and those of the others, by name.
 ///
 /// ```yaml
 /// bearing: {sigma: 0.0393}                  # the fields of SensorModelConfig, for all robots

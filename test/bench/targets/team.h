@@ -116,60 +116,6 @@ inline void measureTeams(int seeds) {
   print("targets.team_phd.us_per_set", phd.us_per_set, "us");
 }
 
-/// Section 3.4 of dames: what a wrong model does to the number of targets.
-inline void measureWrongModels(int seeds) {
-  struct Wrong {
-    const char* name;
-    std::function<void(targets::SensorModelConfig&, double)> change;
-  };
-  const Wrong wrongs[] = {
-      {"p_d",
-       [](auto& model, double factor) {
-         auto& detection = model.detection;
-         detection.false_negative = std::max(0.0, 1.0 - factor * (1.0 - detection.false_negative));
-       }},
-      {"sigma", [](auto& model, double factor) { model.bearing.sigma *= factor; }},
-      {"mu", [](auto& model, double factor) { model.clutter.mean *= factor; }}};
-  const targets::TeamConfig team;
-  const auto show = [&](const std::string& name, const targets::SensorModelConfig& told) {
-    const TeamFigures bernoulli = runTeam(team, defaultFilter(), seeds, &told);
-    const TeamFigures phd = runTeam(team, papersFilter(), seeds, &told);
-    print("targets.wrong." + name + ".ospa_600s", bernoulli.ospa[2], "m");
-    print("targets.wrong." + name + ".number_bias", bernoulli.number_bias, "targets");
-    print("targets.wrong." + name + ".phd_ospa_600s", phd.ospa[2], "m");
-    print("targets.wrong." + name + ".phd_mass_bias", phd.mass_bias, "targets");
-  };
-  for (const Wrong& wrong : wrongs) {
-    for (const double factor : {0.5, 1.5}) {
-      targets::SensorModelConfig told = team.model;
-      wrong.change(told, factor);
-      show(fmt::format("{}_x{}", wrong.name, factor), told);
-    }
-  }
-  targets::SensorModelConfig flat = team.model;
-  flat.detection.false_negative = 0.2;
-  flat.detection.target_diameter = 10.0;
-  flat.detection.range_max = 15.0;
-  show("flat", flat);
-}
-
-inline void measureScale(int seeds) {
-  constexpr int kSeconds = 300;
-  for (const int count : {5, 15, 50, 150}) {
-    targets::TeamConfig team;
-    team.targets = count;
-    team.size = 20.0 * std::sqrt(count / 15.0);
-    const auto figures = runTeam(team, defaultFilter(team.size), seeds, nullptr, kSeconds);
-    print(fmt::format("targets.scale.us_per_set_{}_targets", count), figures.us_per_set, "us");
-  }
-  for (const int count : {1, 3, 10, 30}) {
-    targets::TeamConfig team;
-    team.robots = count;
-    const auto figures = runTeam(team, defaultFilter(), seeds, nullptr, kSeconds);
-    print(fmt::format("targets.scale.us_per_set_{}_robots", count), figures.us_per_set, "us");
-  }
-}
-
 inline void measureClutter() {
   constexpr int kScans = 2000000;
   const targets::SensorModel model;
