@@ -10,25 +10,27 @@
 
 #include "bench/rooms/recorded_drive.h"
 #include "scripted_transforms.h"
+#include "sightline/fitting/rigid_alignment.h"
 #include "sightline/mapping/room_fitter.h"
 #include "sightline/pipeline/scan_feed.h"
 
 /// Rooms fitted to a simulated drive, against the floor that was driven.
 namespace sightline::test {
 
-/// Reads a drive as a recording with wheels is read, with the settings shipped.
-inline mapping::Survey surveyOf(const bench::RecordedDrive& drive,
-                                const geometry::Pose2& T_base_sensor, bool with_wheels = true) {
+/// Hands the scans of a drive to `take`, located as those of a recording are, with the settings
+/// shipped.
+template <class Take>
+void readDrive(const bench::RecordedDrive& drive, const geometry::Pose2& T_base_sensor,
+               bool with_wheels, const Take& take) {
   ScriptedTransforms transforms;
   transforms.mount("", T_base_sensor);
   pipeline::FeedNeeds needs;
   needs.odometry = with_wheels;
   pipeline::ScanFeed feed({}, {}, needs, transforms);
   feed.addScanner();
-  mapping::Survey survey{pipeline::EstimatorsConfig()};
   const auto takeAll = [&](auto next) {
     while (auto result = next()) {
-      if (result->located) survey.take(std::move(*result->located));
+      if (result->located) take(std::move(*result->located));
     }
   };
   std::size_t reported = 0;
@@ -42,14 +44,25 @@ inline mapping::Survey surveyOf(const bench::RecordedDrive& drive,
     takeAll([&] { return feed.next(sweep.arrival); });
   }
   takeAll([&] { return feed.flush(); });
+}
+
+inline mapping::Survey surveyOf(const bench::RecordedDrive& drive,
+                                const geometry::Pose2& T_base_sensor, bool with_wheels = true) {
+  mapping::Survey survey{pipeline::EstimatorsConfig()};
+  readDrive(drive, T_base_sensor, with_wheels,
+            [&](pipeline::LocatedScan located) { survey.take(std::move(located)); });
   return survey;
 }
 
-/// From the frame of fitted rooms to that of the truth, by the first pose.
+/// From the frame of fitted rooms to that of the truth, by least squares over the path: the first
+/// pose may be the one that is off.
 inline geometry::Pose2 truthFromFitted(const mapping::FittedRooms& fitted,
                                        const bench::RecordedDrive& drive) {
-  const geometry::StampedPose2& first = fitted.poses.front();
-  return *drive.truth.at(first.stamp) * first.pose.inverse();
+  std::vector<fitting::PointPair> pairs;
+  for (const geometry::StampedPose2& pose : fitted.poses) {
+    pairs.push_back({drive.truth.at(pose.stamp)->translation(), pose.pose.translation()});
+  }
+  return *fitting::alignPoints(pairs);
 }
 
 /// A side of a fitted room against the wall that it stands for.

@@ -98,7 +98,7 @@ LineMatch LineMatcher::match(const SurfaceScan& surfaces, const Submap& submap, 
     scale = std::max(finalScale(), kLine.scale_fall * scale);
   }
   listResiduals(surfaces.points, pairs, match);
-  match.motion_gradient = motionGradient(surfaces, match.T_odom_base, pairs);
+  if (!surfaces.sightings.empty()) weighMotion(surfaces, pairs, match);
   return match;
 }
 
@@ -185,9 +185,11 @@ LineMatcher::RealPart LineMatcher::realPart(const NormalEquations& sum) {
           axes * share.asDiagonal() * solver.eigenvectors().transpose() * whiten};
 }
 
-Eigen::Matrix3d LineMatcher::motionGradient(const SurfaceScan& surfaces, const Pose2& pose,
-                                            const Pairs& pairs) const {
-  if (surfaces.sightings.empty()) return Eigen::Matrix3d::Zero();
+// Information and gradient have to be of one real part: in axes that are turned by a hundredth of a
+// radian, noise along a direction that is known to millimetres becomes metres in one that is not.
+void LineMatcher::weighMotion(const SurfaceScan& surfaces, const Pairs& pairs,
+                              LineMatch& match) const {
+  const Pose2& pose = match.T_odom_base;
   const Eigen::Matrix2d rotation = pose.rotation();
   MotionGradient gradient(surfaces, pose);
   for (const Pair& pair : pairs) {
@@ -196,8 +198,9 @@ Eigen::Matrix3d LineMatcher::motionGradient(const SurfaceScan& surfaces, const P
     gradient.add(static_cast<std::size_t>(pair.point - surfaces.points.data()), pair.surfel->normal,
                  weightOf(pair, residual, finalScale()) * residual.jacobian);
   }
-  const Eigen::Matrix3d real = realPart(linearize(pose, finalScale(), pairs)).of_gradient;
-  return real * gradient.covariance() * real.transpose();
+  const RealPart real = realPart(linearize(pose, finalScale(), pairs));
+  match.information = real.information;
+  match.motion_gradient = real.of_gradient * gradient.covariance() * real.of_gradient.transpose();
 }
 
 void LineMatcher::listResiduals(const std::vector<SurfacePoint>& points, const Pairs& pairs,

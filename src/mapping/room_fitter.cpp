@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "polygon_search.h"
 #include "room_search.h"
 #include "sightline/mapping/wall_adjustment.h"
 
@@ -75,7 +76,7 @@ void nameRooms(std::vector<RoomOutline>& rooms) {
   for (RoomOutline& room : rooms) {
     const double a = room.side(0).length();
     const double b = room.side(1).length();
-    const bool is_corridor = std::max(a, b) > kRooms.corridor_length &&
+    const bool is_corridor = room.sides.size() == 4 && std::max(a, b) > kRooms.corridor_length &&
                              std::max(a, b) > kRooms.corridor * std::min(a, b);
     room.name =
         is_corridor ? fmt::format("corridor_{}", ++corridors) : fmt::format("room_{}", ++others);
@@ -140,6 +141,7 @@ template <class Poses>
 void fitAbout(const std::vector<KeyScan>& keys, const Poses& adjusted, const Progress& report,
               FittedRooms& fitted) {
   fitted.rooms = searchRooms(keys, fitted.path.keys);
+  describeByPolygons(keys, fitted.path.keys, fitted.rooms);
   report(0.8);
   adjustWalls(keys, fitted.path, fitted.rooms);
   report(0.95);

@@ -11,6 +11,7 @@ namespace {
 
 // A side that bends away from its rectangle by less is a side of it [m].
 constexpr double kSquare = 0.01;
+constexpr double kRight = 1e-6;  // of a right angle [rad]
 
 // The rectangle through the middles of the sides, turned as they are on average.
 Rectangle nearestRectangle(const RoomOutline& room) {
@@ -96,13 +97,32 @@ std::optional<Rectangle> rectangleOf(const RoomOutline& room) {
   return rectangle;
 }
 
+bool isSquare(const RoomOutline& room) {
+  for (std::size_t i = 0; i < room.sides.size(); ++i) {
+    const double turn = room.sides[(i + 1) % room.sides.size()].angle - room.sides[i].angle;
+    if (std::abs(geometry::wrapAngle(turn - 0.5 * geometry::kPi)) > kRight) return false;
+  }
+  return room.sides.size() == 4;
+}
+
+bool isRoom(const RoomOutline& room) {
+  std::vector<Eigen::Vector2d> corners;
+  for (std::size_t i = 0; i < room.sides.size(); ++i) corners.push_back(room.side(i).start);
+  try {
+    world::RoomMap().addPolygon("", corners);
+  } catch (const world::InvalidRoomMap&) {
+    return false;
+  }
+  return true;
+}
+
 world::WallSigma sigmaOf(const RoomOutline& room, std::size_t i) {
   const auto rectangle = rectangleOf(room);
   const double right = 0.5 * geometry::kPi * (static_cast<double>(i) + 1.0);
   const double bend =
       rectangle ? geometry::wrapAngle(room.sides[i].angle - rectangle->pose.theta() - right) : 0.0;
   const Eigen::Matrix2d& covariance = room.sides[i].covariance;
-  const double position = std::sqrt(covariance(0, 0));
+  const double position = std::hypot(std::sqrt(covariance(0, 0)), room.sides[i].bend);
   const double direction = std::hypot(std::sqrt(covariance(1, 1)), bend);
   const auto within = [](const config::Range& range, double value) {
     return std::clamp(value, range.min, range.max);

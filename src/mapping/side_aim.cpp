@@ -139,8 +139,10 @@ void aimSides(const std::vector<KeyScan>& keys, const std::vector<Pose2>& poses,
   std::size_t at = 0;
   for (std::size_t r = 0; r < rooms.size(); ++r) {
     const RoomOutline before = rooms[r];
+    const bool is_square = isSquare(found[r]);
     for (std::size_t i = 0; i < before.sides.size(); ++i) {
       SideProfile& profile = profiles[at++];
+      if (!is_square) continue;
       profile.sum();
       const double room_turn = geometry::wrapAngle(found[r].sides[i].angle - before.sides[i].angle);
       aim(best(profile, room_turn), before.side(i).midpoint(), rooms[r], i);

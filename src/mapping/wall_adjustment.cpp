@@ -26,6 +26,10 @@ constexpr struct {
   // curved wall makes no rectangle oblique.
   double prior_sigma = 0.1;
   double turn_sigma = 0.01;
+  // The same of a polygon, whose sides have turns of their own; neighbours this near to a right
+  // angle are meant to have one [rad].
+  double free_turn_sigma = 0.05;
+  double near_right = 0.05;
   double loss = 2.0;
   // Ratio of the variances to those that the residuals tell, as errors of neighbouring scans go
   // together: by NEES on floors 101 to 108 of the benchmark, which prints others.
@@ -35,8 +39,8 @@ constexpr struct {
 /// Distance of two points of a key scan from a side.
 class SideFactor {
  public:
-  SideFactor(const SideSighting& sighting, const Eigen::Vector2d& anchor)
-      : sighting_(sighting), anchor_(anchor) {}
+  SideFactor(const SideSighting& sighting, double bend, const Eigen::Vector2d& anchor)
+      : sighting_(sighting), sigma_(std::hypot(sighting.sigma, bend)), anchor_(anchor) {}
   template <class T>
   bool operator()(const T* pose, const T* side, T* residual) const {
     using std::cos;
@@ -47,13 +51,14 @@ class SideFactor {
       const Eigen::Vector2d& p = sighting_.ends_base[i];
       const T x = pose[0] + c * p.x() - s * p.y() - anchor_.x();
       const T y = pose[1] + s * p.x() + c * p.y() - anchor_.y();
-      residual[i] = (cos(side[1]) * x + sin(side[1]) * y - side[0]) / sighting_.sigma;
+      residual[i] = (cos(side[1]) * x + sin(side[1]) * y - side[0]) / sigma_;
     }
     return true;
   }
 
  private:
   SideSighting sighting_;
+  double sigma_;
   Eigen::Vector2d anchor_;
 };
 
@@ -86,7 +91,8 @@ class WallProblem {
     seen_[sighting.room][sighting.side] = true;
     const auto block = path_.problem().AddResidualBlock(
         new ceres::AutoDiffCostFunction<SideFactor, 2, 3, 2>(
-            new SideFactor(sighting, rooms_[sighting.room].anchor)),
+            new SideFactor(sighting, rooms_[sighting.room].sides[sighting.side].bend,
+                           rooms_[sighting.room].anchor)),
         new ceres::CauchyLoss(kWalls.loss), path_.pose(sighting.key),
         values_[sighting.room][sighting.side].data());
     sightings_.push_back(block);
@@ -122,7 +128,8 @@ class WallProblem {
       sum += kWalls.loss * kWalls.loss * std::log1p(cost / (kWalls.loss * kWalls.loss));
     }
     const std::size_t residuals = 2 * sightings_.size() + 3 * path_.relations();
-    const std::size_t unknowns = 3 * path_.poses().size() + 8 * rooms_.size();
+    std::size_t unknowns = 3 * path_.poses().size();
+    for (const RoomOutline& room : rooms_) unknowns += 2 * room.sides.size();
     return kWalls.calibration * sum /
            static_cast<double>(residuals - std::min(unknowns, residuals / 2));
   }
@@ -155,29 +162,34 @@ class WallProblem {
     values_.push_back(std::move(values));
     seen_.emplace_back(room.sides.size(), false);
     auto& kept = values_.back();
+    const double turn_sigma = isSquare(found) ? kWalls.turn_sigma : kWalls.free_turn_sigma;
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const Eigen::Vector2d before(kept[i][0], found.sides[i].angle);
       path_.problem().AddResidualBlock(
-          new ceres::AutoDiffCostFunction<SidePrior, 2, 2>(new SidePrior(before)), nullptr,
-          kept[i].data());
+          new ceres::AutoDiffCostFunction<SidePrior, 2, 2>(new SidePrior(before, turn_sigma)),
+          nullptr, kept[i].data());
     }
-    if (kept.size() != 4) return;
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const std::size_t next = (i + 1) % kept.size();
+      const double turn = found.sides[next].angle - found.sides[i].angle;
+      if (std::abs(geometry::wrapAngle(turn - 0.5 * geometry::kPi)) > kWalls.near_right) continue;
       path_.problem().AddResidualBlock(
           new ceres::AutoDiffCostFunction<SquareFactor, 1, 2, 2>(new SquareFactor()),
-          new ceres::CauchyLoss(kWalls.loss), kept[i].data(), kept[(i + 1) % 4].data());
+          new ceres::CauchyLoss(kWalls.loss), kept[i].data(), kept[next].data());
     }
   }
 
   struct SidePrior {
-    explicit SidePrior(const Eigen::Vector2d& mean_) : mean(mean_) {}
+    SidePrior(const Eigen::Vector2d& mean_, double turn_sigma_)
+        : mean(mean_), turn_sigma(turn_sigma_) {}
     template <class T>
     bool operator()(const T* side, T* residual) const {
       residual[0] = (side[0] - mean[0]) / kWalls.prior_sigma;
-      residual[1] = wrapped(side[1] - mean[1]) / kWalls.turn_sigma;
+      residual[1] = wrapped(side[1] - mean[1]) / turn_sigma;
       return true;
     }
     Eigen::Vector2d mean;
+    double turn_sigma;
   };
 
   // Covariance of all sides' values, in their order; nothing where it cannot be told.
@@ -204,6 +216,16 @@ class WallProblem {
   std::vector<ceres::ResidualBlockId> sightings_;
 };
 
+// Sides that have come to cross go back to where they were found, none of them known any better.
+void putBack(const RoomOutline& found, RoomOutline& room) {
+  for (std::size_t i = 0; i < room.sides.size(); ++i) {
+    const Eigen::Matrix2d prior =
+        Eigen::Vector2d(kWalls.prior_sigma, kWalls.free_turn_sigma).cwiseAbs2().asDiagonal();
+    room.sides[i] = found.sides[i];
+    room.sides[i].covariance = prior;
+  }
+}
+
 }  // namespace
 
 void adjustWalls(const std::vector<KeyScan>& keys, AdjustedPath& path,
@@ -221,6 +243,9 @@ void adjustWalls(const std::vector<KeyScan>& keys, AdjustedPath& path,
     problem.store(path, rooms);
     if (gate != *std::rbegin(kWalls.gates)) aimSides(keys, path.keys, found, rooms);
     if (gate == *std::rbegin(kWalls.gates)) problem.storeCovariances(rooms);
+  }
+  for (std::size_t r = 0; r < rooms.size(); ++r) {
+    if (!isRoom(rooms[r])) putBack(found[r], rooms[r]);
   }
 }
 

@@ -73,8 +73,7 @@ class LineMatcher {
   static RealPart realPart(const NormalEquations& sum);
   void listResiduals(const std::vector<SurfacePoint>& points, const Pairs& pairs,
                      LineMatch& match) const;
-  Eigen::Matrix3d motionGradient(const SurfaceScan& surfaces, const geometry::Pose2& pose,
-                                 const Pairs& pairs) const;
+  void weighMotion(const SurfaceScan& surfaces, const Pairs& pairs, LineMatch& match) const;
 
   double surface_variance_;
 };

@@ -30,6 +30,9 @@ class FacingImages {
 
   bool isWall(int facing, int x, int y) const { return walls_[facing][at(x, y)] != 0; }
   /// Whether something stands there, whichever way it faces.
+  bool isSolid(int x, int y) const { return solid_[at(x, y)] != 0; }
+  /// Whether two rays ended there, however many passed.
+  bool isMet(int x, int y) const { return ends_[at(x, y)] > 1; }
   /// Whether rays passed, and nothing stood there.
   bool isFree(int x, int y) const { return free_[at(x, y)] != 0; }
   /// Whether anything is known of it.

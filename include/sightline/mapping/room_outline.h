@@ -23,6 +23,8 @@ struct SideLine {
   /// sides: a shift and a turn of all together is no error.
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   bool is_seen = false;  ///< whether scans tell where it is
+  /// Standard deviation of what bends away from the line [m]: sides of a round wall are straight.
+  double bend = 0.0;
 
   Eigen::Vector2d normal() const { return {std::cos(angle), std::sin(angle)}; }
 };
@@ -53,8 +55,15 @@ struct Rectangle {
 /// The rectangle that an outline is, to a centimetre; nothing where it is none.
 std::optional<Rectangle> rectangleOf(const RoomOutline& room);
 
-/// How well the line of a side is known: by its covariance, and of a rectangle, whose sides are
-/// written as square, by the turn that this leaves out.
+/// Whether neighbours are at right angles, four of them.
+bool isSquare(const RoomOutline& room);
+
+/// Whether a rooms file can hold it: its sides have lengths, and do not cross.
+bool isRoom(const RoomOutline& room);
+
+/// How well the line of a side is known: by its covariance, by how what stands there bends away
+/// from it, and of a rectangle, whose sides are written as square, by the turn that this leaves
+/// out.
 world::WallSigma sigmaOf(const RoomOutline& room, std::size_t side);
 
 /// The outline of a room of a map, in which neighbours meet at its corners.
