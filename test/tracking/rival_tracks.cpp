@@ -137,6 +137,25 @@ TEST_F(RivalTracksTest, TheTwinIsNotBelieved) {
   EXPECT_EQ(last_->state, TrackerState::kTracking);
 }
 
+// The start is told, and half of what is seen stands along a wall or before one: neither the shelf
+// nor a place elsewhere that meets more walls takes the robot away.
+TEST_F(RivalTracksTest, FurnitureAlongWallsDoesNotTakeATrueStartAway) {
+  const char* const room = "rooms: {hall: {size: [6.0, 4.0]}}";
+  test::SimulatedRooms furnished(R"(
+rooms: {hall: {polygon: [[-3, -2], [3, -2], [3, 2], [2.2, 2], [2.2, 1.7], [-2.5, 1.7], [-2.5, 2], [-3, 2]]}}
+)");
+  RoomTracker tracker(TrackerConfig(), world::RoomMap(config::Node::parse(room, "room")));
+  truth_ = Pose2(-0.6, 0.8, 2.6);
+  tracker.setPose({truth_, Eigen::Vector3d(0.09, 0.09, 0.01).asDiagonal()});
+  for (int i = 0; i < 80; ++i) {
+    stamp_ += 100'000'000;
+    last_ = tracker.update(furnished.look(truth_, stamp_), odometry_, {});
+    EXPECT_TRUE(isAt(last_, truth_)) << i;
+    truth_ = truth_ * Pose2(0.03, 0.0, 0.03);
+    odometry_ = odometry_ * Pose2(0.03, 0.0, 0.03);
+  }
+}
+
 TEST_F(RivalTracksTest, AVagueStartIsSearchedFor) {
   startAt({0.0, 0.0, 0.0}, 4.0);
   EXPECT_FALSE(look());
