@@ -72,6 +72,7 @@ std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
   if (is_compared_) takeByPublished(context, input, false);
   if (isInDoubt() && is_compared_) look(context, input);
   hypotheses_ = thinnedOut(std::move(hypotheses_), is_started_);
+  dismissSurprise(input);
   settle();
   return is_started_ ? std::optional(report(context)) : std::nullopt;
 }
@@ -213,6 +214,16 @@ void RivalTracks::dismissRivals() {
       published.belief.probability() >= kRivals.beyond_doubt && !published.belief.isSurprised();
   if (!is_confirmed_ || !is_claimed_ || !is_sure) return;
   hypotheses_.erase(hypotheses_.begin() + 1, hypotheses_.end());
+}
+
+// Walls out of sight are no sign that the robot has been carried away, where those in sight are as
+// predicted and the search of the whole map has found nothing better.
+void RivalTracks::dismissSurprise(const TrackerInput& input) {
+  if (scans_since_search_ != 0 || !is_claimed_ || hypotheses_.empty()) return;
+  Hypothesis& published = hypotheses_.front();
+  if (!published.belief.isSurprised() || probabilityOf(hypotheses_, published) < kSure) return;
+  if (!isAsPredicted(published.update, *input.scan.geometry())) return;
+  published.belief.dismissSurprise(published.update, *input.scan.geometry());
 }
 
 void RivalTracks::settle() {

@@ -59,6 +59,7 @@ class RivalTracks {
   void settle();
   void claimIfCertain();
   void dismissRivals();
+  void dismissSurprise(const TrackerInput& input);
   bool isToBeSearched() const;
   bool isSureStart() const;
   bool isInDoubt() const;
