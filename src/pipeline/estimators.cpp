@@ -88,9 +88,9 @@ Estimates Estimators::take(LocatedScan located) {
 }
 
 // The odometry tells a clock that was set from a recording that is played again.
-void Estimators::restartRooms(const LocatedScan& located) {
+void Estimators::restartRooms(const Pose2& T_odom_base) {
   rooms_restart_ = false;
-  const bool goes_on = T_odom_base_ && isSamePlace(*T_odom_base_, *located.T_odom_base);
+  const bool goes_on = T_odom_base_ && isSamePlace(*T_odom_base_, T_odom_base);
   if (config_.rooms->initial_pose && !goes_on) {
     rooms_->setPose(config_.rooms->start());
   } else {
@@ -168,16 +168,24 @@ void Estimators::extract(Estimates& estimates) {
   }
 }
 
+// The dead reckoner tells the way where wheels are not to.
+std::optional<Pose2> Estimators::odometryOf(const Estimates& estimates) const {
+  const bool by_scans = config_.input.feed.odometry_source == OdometrySource::kNone;
+  if (by_scans && estimates.odometry) return estimates.odometry->pose.mean;
+  return estimates.located.T_odom_base;
+}
+
 void Estimators::track(Estimates& estimates) {
   const LocatedScan& located = estimates.located;
-  if (!located.T_odom_base || !located.T_base_sensor) return;
-  if (rooms_restart_) restartRooms(located);
-  T_odom_base_ = located.T_odom_base;
+  const auto T_odom_base = odometryOf(estimates);
+  if (!T_odom_base || !located.T_base_sensor) return;
+  if (rooms_restart_) restartRooms(*T_odom_base);
+  T_odom_base_ = T_odom_base;
   if (located.odometry_broke) rooms_->inflate(kBridgedPosition, kBridgedHeading);
-  const Pose2 T_path_base = located.T_path_base.value_or(*located.T_odom_base);
+  const Pose2 T_path_base = located.T_path_base.value_or(*T_odom_base);
   estimates.rooms = rooms_->update(located.scan, T_path_base, *located.T_base_sensor);
   if (!estimates.rooms) return;
-  estimates.rooms->T_map_odom = estimates.rooms->pose.mean * located.T_odom_base->inverse();
+  estimates.rooms->T_map_odom = estimates.rooms->pose.mean * T_odom_base->inverse();
   if (located.odometry_broke || located.turns_opposite) flagBreak(*estimates.rooms);
 }
 

@@ -66,8 +66,8 @@ Nodes nodesOf(const Job& job, const pipeline::EstimatorsConfig& config) {
   const Nodes by_settings{{true, config.rooms.has_value(), config.odometry.has_value(), true}};
   const Nodes nodes = job.nodes ? nodesOf(*job.nodes) : by_settings;
   if (nodes.set.rooms && !config.rooms) throw config::Error(job.config, 0, "rooms", "missing");
-  if (nodes.set.rooms && job.no_wheels) {
-    throw tools::UsageError("--no-wheels leaves rooms without odometry");
+  if (nodes.set.rooms && job.no_wheels && !nodes.set.odometry) {
+    throw tools::UsageError("--no-wheels leaves rooms without odometry: add it to --nodes");
   }
   return nodes;
 }
@@ -203,6 +203,7 @@ int main(int argc, char** argv) {
   program.option("--nodes", job.nodes, "lines,rooms,odometry,map|targets",
                  "what to run; by default lines, and rooms and odometry where the settings ask for "
                  "them");
-  program.flag("--no-wheels", job.no_wheels, "leave the odometry of the bag unused");
+  program.flag("--no-wheels", job.no_wheels,
+               "leave the odometry of the bag unused: rooms go by that of the scans");
   return program.run(argc, argv, [&] { return runOffline(job); });
 }

@@ -28,7 +28,19 @@ constexpr struct {
   double doubtful_learning = 0.005;
   double most_through = 0.04;
   double least_hits = 0.3;
+  // Gates that are wider find a wall somewhere [m]; independent beams on walls that are no chance.
+  double narrow = 0.15;
+  double least_found = 2.0;
 } kBelief;
+
+bool goesThroughWalls(const ScanAgreement& agreement) {
+  return static_cast<double>(agreement.beyond) >=
+         kBelief.most_through * static_cast<double>(agreement.judged());
+}
+
+double saidBy(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
+  return std::clamp(logOdds(agreement, geometry), kBelief.most_against, kBelief.most_for);
+}
 
 }  // namespace
 
@@ -38,16 +50,22 @@ void PoseBelief::take(const TrackerUpdate& update, const scan::ScanGeometry& geo
   if (!view_ || isAnotherView(*view_, T_odom_base)) {
     before_ = std::clamp(before_ + last_, -kBelief.most, kBelief.most);
     view_ = T_odom_base;
-    was_surprised_ = is_surprised_;
-    has_jumped_ = false;
+    was_surprised_ = isSurprised();
+    has_jumped_ = is_dismissed_ = false;
   }
-  last_ = std::clamp(logOdds(agreement, geometry), kBelief.most_against, kBelief.most_for);
+  last_ = saidBy(agreement, geometry);
   if (update.is_outside) last_ = std::min(last_, kBelief.outside);
   is_surprised_ = isSurprising(agreement, geometry);
+  is_dismissed_ = is_dismissed_ && !goesThroughWalls(agreement);
   // A surprise counts once, however long what causes it is seen.
-  if (is_surprised_) last_ = std::min(last_, was_surprised_ ? 0.0 : kBelief.surprising);
+  if (isSurprised()) last_ = std::min(last_, was_surprised_ ? 0.0 : kBelief.surprising);
   has_jumped_ = has_jumped_ || update.jumped;
   if (has_jumped_) last_ = std::min(last_, kBelief.surprising);
+}
+
+void PoseBelief::dismissSurprise(const TrackerUpdate& update, const scan::ScanGeometry& geometry) {
+  is_dismissed_ = true;
+  if (!has_jumped_ && !update.is_outside) last_ = saidBy(update.agreement, geometry);
 }
 
 bool PoseBelief::isSurprising(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
@@ -71,8 +89,18 @@ double PoseBelief::probability() const {
 bool isSound(const ScanAgreement& agreement) {
   const auto judged = static_cast<double>(agreement.judged());
   if (judged == 0.0) return false;
-  return static_cast<double>(agreement.beyond) < kBelief.most_through * judged &&
+  return !goesThroughWalls(agreement) &&
          static_cast<double>(agreement.on_wall) >= kBelief.least_hits * judged;
+}
+
+bool isAsPredicted(const TrackerUpdate& update, const scan::ScanGeometry& geometry) {
+  double found = 0.0;
+  for (const WallUpdate& wall : update.walls) {
+    const bool is_narrow = wall.gate.opening <= kBelief.narrow;
+    if (wall.accepted() && is_narrow) found += static_cast<double>(wall.acceptedBeams());
+  }
+  return !goesThroughWalls(update.agreement) &&
+         found * weightOf(update.agreement, geometry) >= kBelief.least_found;
 }
 
 }  // namespace sightline::tracking

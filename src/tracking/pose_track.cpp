@@ -44,6 +44,17 @@ constexpr struct {
   double proof = 20.0;  // and wheels, not to be believed for a while
 } kPriors;
 
+// Log-likelihood of a scan by a motion of a known robot, to which each beam on a wall speaks.
+double withRepeats(ScanAgreement agreement, const scan::Scan& scan, double usual_hits) {
+  agreement.repeated = 0.0;
+  return logLikelihood(agreement, *scan.geometry(), usual_hits);
+}
+
+// What compares choices of lines for walls: a longer line is not the likelier wall.
+double asChoice(const Explanation& explanation) {
+  return explanation.log_posterior - explanation.log_repeats;
+}
+
 void keepBetter(Explanation& best, Explanation other, double log_prior,
                 Explanation::Motion motion) {
   other.log_posterior += log_prior;
@@ -83,12 +94,23 @@ void PoseTrack::predict(const TrackingContext& context, const TrackerInput& inpu
 Explanation PoseTrack::explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
                                    const TrackingContext& context, const TrackerInput& input,
                                    const Sweep& sweep) const {
-  Explanation explanation{prior, {}, {}};
+  using Lines = WallFinder::Lines;
   const WallFinder finder(context.config);
-  for (WallFit& fit :
-       finder.find(looked_from, context.map, wallsInSight(context, memory_.room()), sweep)) {
-    explanation.walls.emplace_back(std::move(fit));
+  const Lines lines = &looked_from == &filter_ ? Lines::kAll : Lines::kHeaviest;
+  std::optional<Explanation> best;
+  const auto walls = wallsInSight(context, memory_.room());
+  for (auto& fits : finder.find(looked_from, context.map, walls, sweep, lines)) {
+    Explanation explanation = explainBy(std::move(fits), prior, context, input, sweep);
+    if (!best || asChoice(explanation) > asChoice(*best)) best = std::move(explanation);
   }
+  return *best;
+}
+
+Explanation PoseTrack::explainBy(std::vector<WallFit> fits, const PoseFilter& prior,
+                                 const TrackingContext& context, const TrackerInput& input,
+                                 const Sweep& sweep) const {
+  Explanation explanation{prior, {}, {}};
+  for (WallFit& fit : fits) explanation.walls.emplace_back(std::move(fit));
   explanation.filter.beginSweep(sweep.motion_noise);
   applyWalls(context, explanation.filter, explanation.walls);
   applyJambs(context, memory_.room(), sweep, explanation.filter);
@@ -102,7 +124,9 @@ void PoseTrack::judge(const TrackingContext& context, const TrackerInput& input,
   explanation.agreement =
       agreementAt(context, input, explanation.filter.pose().mean, memory_.room(),
                   context.config.neighbours ? Doors::kOpen : Doors::kIgnored);
-  explanation.log_posterior =
+  explanation.log_posterior = withRepeats(explanation.agreement, input.scan, usual_hits_);
+  explanation.log_repeats =
+      explanation.log_posterior -
       logLikelihood(explanation.agreement, *input.scan.geometry(), usual_hits_);
   for (const WallUpdate& wall : explanation.walls) {
     if (!wall.innovation) continue;
@@ -120,8 +144,7 @@ Explanation PoseTrack::withoutWalls(const Explanation& taken, const TrackingCont
                                     const TrackerInput& input) const {
   Explanation none{filter_, taken.walls, {}};
   judge(context, input, none);
-  none.log_posterior =
-      logLikelihood(none.agreement, *input.scan.geometry(), usual_hits_) + kPriors.unused;
+  none.log_posterior = withRepeats(none.agreement, input.scan, usual_hits_) + kPriors.unused;
   for (WallUpdate& wall : none.walls) {
     if (wall.accepted()) wall.refusal = WallRefusal::kOutsideGate;
   }

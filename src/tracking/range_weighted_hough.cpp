@@ -14,6 +14,8 @@ constexpr struct {
   // and by turn.
   double distance_penalty = 0.5;
   double turn_penalty = 0.2;
+  std::size_t most_peaks = 3;  // of one wall
+  double least_share = 0.2;    // of the heaviest peak's weight
 } kHough;
 
 double squared(double value) {
@@ -73,6 +75,32 @@ std::optional<WallPeak> bestPeak(const GatedWall& wall, double turn, const Hough
   return best;
 }
 
+// The peaks of a wall at a turn, by weight, those at the edge of the gate less.
+std::vector<WallPeak> peaksAt(const GatedWall& wall, double turn, const HoughConfig& config) {
+  std::vector<WallPeak> peaks;
+  if (wall.points.empty()) return peaks;
+  const Axis axis = distancesOf(wall, config);
+  std::vector<double> scores = vote(wall, turn, axis);
+  const std::vector<double> votes = scores;
+  for (int i = -axis.half; i <= axis.half; ++i) {
+    scores[static_cast<std::size_t>(i + axis.half)] *=
+        1.0 - kHough.distance_penalty * squared(static_cast<double>(i) / axis.half);
+  }
+  double least = 0.0;
+  while (peaks.size() < kHough.most_peaks) {
+    const auto best = std::max_element(scores.begin(), scores.end());
+    if (*best <= least) break;
+    least = std::max(least, kHough.least_share * *best);
+    const auto at = static_cast<int>(best - scores.begin());
+    peaks.push_back({turn, axis.at(at - axis.half), votes[static_cast<std::size_t>(at)],
+                     config.angle_bin, axis.bin});
+    const auto from = scores.begin() + std::max(0, at - kBinsApart + 1);
+    const auto to = scores.begin() + std::min(2 * axis.half + 1, at + kBinsApart);
+    std::fill(from, to, 0.0);
+  }
+  return peaks;
+}
+
 }  // namespace
 
 HoughPeaks RangeWeightedHough::transform(const std::vector<GatedWall>& walls) const {
@@ -80,23 +108,22 @@ HoughPeaks RangeWeightedHough::transform(const std::vector<GatedWall>& walls) co
   for (const GatedWall& wall : walls) reach = std::max(reach, wall.gate.size().angle);
   const Axis turns(reach, config_.angle_bin);
   HoughPeaks best;
-  best.walls.resize(walls.size());
   double best_score = 0.0;
   for (int i = -turns.half; i <= turns.half; ++i) {
-    HoughPeaks candidate;
-    candidate.turn = turns.at(i);
     double weight = 0.0;
     for (const GatedWall& wall : walls) {
-      candidate.walls.push_back(bestPeak(wall, candidate.turn, config_, kHough.distance_penalty));
-      if (!candidate.walls.back()) continue;
-      candidate.walls.back()->turn_bin = turns.bin;
-      weight += candidate.walls.back()->weight;
+      const auto peak = bestPeak(wall, turns.at(i), config_, kHough.distance_penalty);
+      if (peak) weight += peak->weight;
     }
     const double off = static_cast<double>(i) / (turns.half + 1);
     const double score = weight * (1.0 - kHough.turn_penalty * squared(off));
     if (score <= best_score) continue;
     best_score = score;
-    best = std::move(candidate);
+    best.turn = turns.at(i);
+  }
+  for (const GatedWall& wall : walls) {
+    best.walls.push_back(peaksAt(wall, best.turn, config_));
+    for (WallPeak& peak : best.walls.back()) peak.turn_bin = turns.bin;
   }
   return best;
 }

@@ -29,11 +29,11 @@ constexpr struct {
   double slip_heading = 0.2;    // [rad]
   double found_position = 0.1;  // sigma of a pose that was found [m, rad]
   double found_heading = 0.03;
+  double less = 2.3;           // log-likelihood by which a scan says less than another: tenfold
   int search_again = 16;       // scans at most, where the robot stands
   double as_given = 14.2;      // of chi-square with 3 degrees of freedom, 99.7 %
   double beyond_doubt = 0.99;  // several views that speak for a pose
-  double hopeless = 0.1;
-  double believed = 2.0;  // log odds of a start
+  double believed = 2.0;       // log odds of a start
 } kRivals;
 
 UncertainPose2 uncertain(const Pose2& pose, double position, double heading) {
@@ -65,26 +65,42 @@ std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
   if (is_older || input.scan.beams() == 0) return std::nullopt;
   newest_ = input.scan.stamp;
   ++scans_since_search_;
-  is_compared_ = keys_.isNew(input) || scans_since_search_ >= search_again_;
-  move(context, input);
+  const int wait = isSureStart() ? kRivals.search_again : search_again_;
+  moveAll(input);
+  takeByPublished(context, input, true);
+  is_compared_ = keys_.isNew(input) || scans_since_search_ >= wait || explainsLess(input);
+  if (is_compared_) takeByPublished(context, input, false);
   if (isInDoubt() && is_compared_) look(context, input);
-  hypotheses_ = thinnedOut(std::move(hypotheses_), is_confirmed_);
+  hypotheses_ = thinnedOut(std::move(hypotheses_), is_started_);
+  dismissSurprise(input);
   settle();
   return is_started_ ? std::optional(report(context)) : std::nullopt;
 }
 
-// Each hypothesis goes with the odometry. The published one takes every scan; the others take those
-// by which they are compared, as ten of them cost ten times as much.
-void RivalTracks::move(const TrackingContext& context, const TrackerInput& input) {
+void RivalTracks::moveAll(const TrackerInput& input) {
   way_.add(input.T_odom_base);
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.way.add(input.T_odom_base);
+}
+
+// The published one takes every scan; the others those by which they are compared, as ten of them
+// cost ten times as much.
+void RivalTracks::takeByPublished(const TrackingContext& context, const TrackerInput& input,
+                                  bool is_published) {
   for (Hypothesis& hypothesis : hypotheses_) {
-    hypothesis.way.add(input.T_odom_base);
-    if (!is_compared_ && !hypothesis.is_published) continue;
+    if (hypothesis.is_published != is_published) continue;
     const auto update = hypothesis.track.update(context, input);
     if (!update) continue;
     hypothesis.update = *update;
     hypothesis.belief.take(*update, *input.scan.geometry(), input.T_odom_base);
   }
+}
+
+// Whether the published pose explains a scan less well than the last one that was compared, as
+// where the robot has been carried away.
+bool RivalTracks::explainsLess(const TrackerInput& input) const {
+  if (is_confirmed_ || hypotheses_.empty()) return false;
+  const Hypothesis& published = hypotheses_.front();
+  return likelihoodOf(published.update.agreement, input) < published.last_key - kRivals.less;
 }
 
 // Compares the explanations of a scan that says something new; of those from the same place less
@@ -98,10 +114,16 @@ void RivalTracks::look(const TrackingContext& context, const TrackerInput& input
   if (is_searched && tellsPlacesApart(*input.scan.geometry())) search(context, input);
 }
 
+// Logarithm of it. Until a pose is confirmed, furniture along walls is as likely as the walls; once
+// it is, another one has to be thought of only where beams contradict it, and each of them counts.
+double RivalTracks::likelihoodOf(ScanAgreement agreement, const TrackerInput& input) const {
+  if (is_confirmed_) agreement.repeated = 0.0;
+  return logLikelihood(agreement, *input.scan.geometry(), usual_hits_);
+}
+
 void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {
   for (Hypothesis& hypothesis : hypotheses_) {
-    const double log_likelihood =
-        logLikelihood(hypothesis.update.agreement, *input.scan.geometry(), usual_hits_);
+    const double log_likelihood = likelihoodOf(hypothesis.update.agreement, input);
     hypothesis.log_posterior += log_likelihood - (is_new_key ? 0.0 : hypothesis.last_key);
     hypothesis.last_key = log_likelihood;
   }
@@ -124,7 +146,7 @@ void RivalTracks::search(const TrackingContext& context, const TrackerInput& inp
     rival.update = *update;
     rival.belief.take(*update, *input.scan.geometry(), input.T_odom_base);
     rival.way.add(input.T_odom_base);
-    rival.last_key = logLikelihood(update->agreement, *input.scan.geometry(), usual_hits_);
+    rival.last_key = likelihoodOf(update->agreement, input);
     rival.log_posterior = rival.last_key + logPriorOf(context, update->pose.mean);
     rival.is_trusted = isTrusted(update->pose.mean);
     found.push_back(std::move(rival));
@@ -174,6 +196,12 @@ bool RivalTracks::isToBeSearched() const {
   return hypotheses_.front().belief.probability() < kSure;
 }
 
+// Whether a start that was given is as good as certain: the same view again tells nothing of it.
+bool RivalTracks::isSureStart() const {
+  return is_started_ && !is_confirmed_ && !isToBeSearched() &&
+         probabilityOf(hypotheses_, hypotheses_.front()) >= kSure;
+}
+
 bool RivalTracks::isInDoubt() const {
   return isToBeSearched() || hypotheses_.size() != 1;
 }
@@ -188,11 +216,23 @@ void RivalTracks::dismissRivals() {
   hypotheses_.erase(hypotheses_.begin() + 1, hypotheses_.end());
 }
 
+// Walls out of sight are no sign that the robot has been carried away, where those in sight are as
+// predicted and the search of the whole map has found nothing better.
+void RivalTracks::dismissSurprise(const TrackerInput& input) {
+  if (scans_since_search_ != 0 || !is_claimed_ || hypotheses_.empty()) return;
+  Hypothesis& published = hypotheses_.front();
+  if (!published.belief.isSurprised() || probabilityOf(hypotheses_, published) < kSure) return;
+  if (!isAsPredicted(published.update, *input.scan.geometry())) return;
+  published.belief.dismissSurprise(published.update, *input.scan.geometry());
+}
+
 void RivalTracks::settle() {
   if (hypotheses_.empty()) return;
   if (is_confirmed_) {
     if (is_compared_) takeOverIfCertain();
     dismissRivals();
+  } else if (is_started_) {
+    giveUpStartIfWrong();
   } else if (!hypotheses_.front().is_published) {
     publish(0);
   }
@@ -211,8 +251,15 @@ void RivalTracks::publish(std::size_t index) {
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_published = false;
   hypotheses_.front().is_published = true;
   if (!is_claimed_ || hypotheses_.front().is_trusted) return;
-  way_.restart();
+  way_ = hypotheses_.front().way;
   is_claimed_ = false;
+}
+
+std::vector<Hypothesis>::iterator RivalTracks::mostProbableRival() {
+  const auto by_posterior = [](const Hypothesis& a, const Hypothesis& b) {
+    return a.log_posterior < b.log_posterior;
+  };
+  return std::max_element(hypotheses_.begin() + 1, hypotheses_.end(), by_posterior);
 }
 
 // A pose that was tracked through thick and thin gives way to another only where scans speak
@@ -221,16 +268,24 @@ void RivalTracks::publish(std::size_t index) {
 void RivalTracks::takeOverIfCertain() {
   const PoseBelief& belief = hypotheses_.front().belief;
   if (!belief.isContradicted() || hypotheses_.size() < 2) return;
-  const auto by_posterior = [](const Hypothesis& a, const Hypothesis& b) {
-    return a.log_posterior < b.log_posterior;
-  };
-  const auto rival = std::max_element(hypotheses_.begin() + 1, hypotheses_.end(), by_posterior);
+  const auto rival = mostProbableRival();
   if (!isCertain(hypotheses_, *rival)) return;
   const Pose2& published = hypotheses_.front().track.pose().mean;
   const double distance = (rival->track.pose().mean.translation() - published.translation()).norm();
-  const bool is_proven = rival->way.isEnough() && belief.probability() < kRivals.hopeless;
+  const bool is_proven = rival->way.isEnough() && belief.probability() < kHopeless;
   if (distance >= kRivals.push_reach && !is_proven) return;
   rival->is_trusted = rival->is_trusted || rival->way.isEnough();
+  publish(static_cast<std::size_t>(rival - hypotheses_.begin()));
+}
+
+// A start that was given holds until it is as improbable as it was that it is wrong, or another
+// pose is certain: furniture alone makes one more probable now and then.
+void RivalTracks::giveUpStartIfWrong() {
+  if (!is_compared_ || hypotheses_.size() < 2) return;
+  const auto rival = mostProbableRival();
+  const bool is_refuted =
+      std::log(probabilityOf(hypotheses_, hypotheses_.front())) < kRivals.wrong_start;
+  if (!is_refuted && !isCertain(hypotheses_, *rival)) return;
   publish(static_cast<std::size_t>(rival - hypotheses_.begin()));
 }
 
@@ -239,59 +294,6 @@ void RivalTracks::claimIfCertain() {
   is_claimed_ = is_started_ = is_confirmed_ = true;
   start_.reset();
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.is_trusted = hypothesis.is_published;
-}
-
-TrackerState RivalTracks::stateOf(const TrackingContext& context, double quality) const {
-  const TrackerUpdate& update = hypotheses_.front().update;
-  if (update.state == TrackerState::kLost) return TrackerState::kLost;
-  const bool is_flagged =
-      !is_claimed_ || quality < kSure || isVague(context.config, update.pose.covariance);
-  return is_flagged ? TrackerState::kDegraded : TrackerState::kTracking;
-}
-
-TrackerUpdate RivalTracks::report(const TrackingContext& context) {
-  const Hypothesis& published = hypotheses_.front();
-  TrackerUpdate update = published.update;
-  update.quality = published.belief.probability() * probabilityOf(hypotheses_, published);
-  update.state = stateOf(context, update.quality);
-  update.covariance_valid =
-      update.state != TrackerState::kLost && update.quality >= kRivals.hopeless;
-  update.rivals = rivals();
-  if (!update.rivals.empty()) update.rivals.erase(update.rivals.begin());
-  return update;
-}
-
-void RivalTracks::inflate(double position_sigma, double heading_sigma) {
-  for (Hypothesis& each : hypotheses_) each.track.inflate(position_sigma, heading_sigma);
-}
-
-void RivalTracks::setRoom(std::size_t room) {
-  if (!hypotheses_.empty()) hypotheses_.front().track.memory().setRoom(room);
-}
-
-void RivalTracks::restartClock() {
-  for (Hypothesis& each : hypotheses_) each.track.memory().restartClock();
-  keys_.clear();
-  way_.forgetLast();
-  newest_.reset();
-}
-
-std::optional<UncertainPose2> RivalTracks::pose() const {
-  if (!is_started_ || hypotheses_.empty()) return std::nullopt;
-  return hypotheses_.front().track.pose();
-}
-
-std::optional<std::size_t> RivalTracks::room() const {
-  if (!is_started_ || hypotheses_.empty()) return std::nullopt;
-  return hypotheses_.front().track.room();
-}
-
-std::vector<RivalPose> RivalTracks::rivals() const {
-  std::vector<RivalPose> all;
-  for (const Hypothesis& each : hypotheses_) {
-    all.push_back({each.track.pose(), each.track.room(), probabilityOf(hypotheses_, each)});
-  }
-  return all;
 }
 
 }  // namespace sightline::tracking

@@ -8,7 +8,8 @@
 // on the robot and turning by 90°/s): 10 seeds, the tracker being told the true noise and that the
 // map is exact. rooms.bootstrap.*: starts without a pose on the shipped floor. rooms.fr079.*: the
 // Freiburg log against its hand-verified relations, on a map that was drawn over the scans of the
-// same log; _raw: with its wheels as they were logged; _no_start: without a start pose.
+// same log; _raw: with its wheels as they were logged; _no_start: without a start pose;
+// _laser_only: without wheels, by the dead reckoning from the scans.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -125,6 +125,18 @@ TEST_F(OfflineTest, FollowsTheRobotByItsScansAlone) {
   EXPECT_EQ(topicsOfResult().at("/laser_odom"), 60U);
 }
 
+TEST_F(OfflineTest, TracksRoomsByScansAlone) {
+  const auto result = run("--nodes rooms,odometry --no-wheels");
+  EXPECT_EQ(result.status, 0) << result.output;
+  const auto trajectory = logs::readTrajectory(folder_.path("out/rooms.tum"));
+  ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kScans));
+  for (const geometry::StampedPose2& timed : trajectory) {
+    const geometry::Pose2 error = geometry::between(robotAt(timed), timed.pose);
+    EXPECT_LT(error.translation().norm(), 0.03);
+    EXPECT_LT(std::abs(error.theta()), 0.01);
+  }
+}
+
 TEST_F(OfflineTest, BeginsWhereTheWheelsAre) {
   const auto result = run("--nodes odometry");
   EXPECT_EQ(result.status, 0) << result.output;

@@ -20,11 +20,13 @@ class PoseBeliefTest : public ::testing::Test {
     update.agreement.looked_at = 360;
     update.jumped = jumped;
     belief_.take(update, *geometry_, T_odom_base);
+    last_ = update;
   }
 
   test::SimulatedRooms rooms_{"rooms:\n  box: {size: [6.0, 4.0]}\n"};
   std::shared_ptr<const scan::ScanGeometry> geometry_ = rooms_.look({}, 1).geometry();
   PoseBelief belief_{5.0};
+  TrackerUpdate last_;
 };
 
 TEST_F(PoseBeliefTest, StandingBeforeADoorThatIsDrawnAsWallIsOneDisagreement) {
@@ -62,6 +64,33 @@ TEST_F(PoseBeliefTest, FarFewerWallsThanUsualAreASurpriseThatLasts) {
   for (int i = 10; i < 15; ++i) take(355, 0, {6.0 + 0.3 * i, 0.0, 0.0});
   EXPECT_FALSE(belief_.isSurprised());
   EXPECT_GT(belief_.probability(), 0.99);
+}
+
+TEST_F(PoseBeliefTest, ASurpriseIsDismissedForTheViewWhileNothingGoesThroughWalls) {
+  for (int i = 0; i < 20; ++i) take(355, 0, {0.3 * i, 0.0, 0.0});
+  take(120, 0, {6.5, 0.0, 0.0}, 235);
+  belief_.dismissSurprise(last_, *geometry_);
+  EXPECT_FALSE(belief_.isSurprised());
+  EXPECT_GT(belief_.probability(), 0.99);
+  take(110, 0, {6.6, 0.0, 0.0}, 245);
+  EXPECT_GT(belief_.probability(), 0.99);
+  take(100, 20, {6.7, 0.0, 0.0}, 235);
+  EXPECT_TRUE(belief_.isSurprised());
+  EXPECT_LT(belief_.probability(), 0.9);
+}
+
+TEST_F(PoseBeliefTest, OnlyNarrowGatesTellThatAPoseIsAsPredicted) {
+  take(120, 0, {}, 235);
+  EXPECT_FALSE(isAsPredicted(last_, *geometry_)) << "no wall corrects the pose";
+  WallUpdate wall;
+  wall.fit = FittedLine();
+  wall.fit->accepted_beams.resize(100);
+  wall.refusal = WallRefusal::kNone;
+  wall.gate.opening = 0.08;
+  last_.walls = {wall};
+  EXPECT_TRUE(isAsPredicted(last_, *geometry_));
+  last_.walls.front().gate.opening = 0.6;
+  EXPECT_FALSE(isAsPredicted(last_, *geometry_)) << "as after a slip";
 }
 
 TEST_F(PoseBeliefTest, ClutterThatComesAndGoesIsNone) {

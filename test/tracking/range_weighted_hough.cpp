@@ -52,9 +52,9 @@ TEST_F(TwoWalls, OneTurnAndEveryWallsDistance) {
   const HoughConfig config;
   const HoughPeaks peaks = RangeWeightedHough(config).transform(walls);
   EXPECT_NEAR(peaks.turn, -0.05, config.angle_bin);
-  ASSERT_TRUE(peaks.walls[0] && peaks.walls[1]);
-  EXPECT_NEAR(peaks.walls[0]->distance, 0.08, config.distance_bin);
-  EXPECT_NEAR(peaks.walls[1]->distance, -0.06, config.distance_bin);
+  ASSERT_FALSE(peaks.walls[0].empty() || peaks.walls[1].empty());
+  EXPECT_NEAR(peaks.walls[0].front().distance, 0.08, config.distance_bin);
+  EXPECT_NEAR(peaks.walls[1].front().distance, -0.06, config.distance_bin);
 }
 
 TEST_F(TwoWalls, FarBeamsOutweighManyNearOnes) {
@@ -65,14 +65,14 @@ TEST_F(TwoWalls, FarBeamsOutweighManyNearOnes) {
   for (double s = 3.0; s <= 4.0; s += 0.07) see(walls[0], {s, 2.0});
   for (BeamPoint& point : points_) point.range = point.position.x() > 1.0 ? 5.0 : 1.0;
   const HoughPeaks peaks = RangeWeightedHough({}).transform(walls);
-  ASSERT_TRUE(peaks.walls[0]);
-  EXPECT_NEAR(peaks.walls[0]->distance, 0.0, 0.05);
+  ASSERT_FALSE(peaks.walls[0].empty());
+  EXPECT_NEAR(peaks.walls[0].front().distance, 0.0, 0.05);
 }
 
 TEST_F(TwoWalls, NoBeamsNoPeak) {
   const HoughPeaks peaks = RangeWeightedHough({}).transform({gatedWall(north_), gatedWall(east_)});
   ASSERT_EQ(peaks.walls.size(), 2U);
-  EXPECT_FALSE(peaks.walls[0] || peaks.walls[1]);
+  EXPECT_TRUE(peaks.walls[0].empty() && peaks.walls[1].empty());
   EXPECT_EQ(peaks.turn, 0.0);
 }
 
@@ -105,11 +105,11 @@ TEST_F(TwoWalls, BinsAreBoundedWhateverIsAskedFor) {
   finest.distance_bin = 1e-3;
   finest.angle_bin = 1e-4;
   const HoughPeaks peaks = RangeWeightedHough(finest).transform(walls);
-  ASSERT_TRUE(peaks.walls[0] && peaks.walls[1]);
-  EXPECT_DOUBLE_EQ(peaks.walls[0]->distance_bin, walls[0].gate.size().opening / 100.0);
-  EXPECT_DOUBLE_EQ(peaks.walls[0]->turn_bin, walls[0].gate.size().angle / 100.0);
-  EXPECT_NEAR(peaks.turn, -0.05, peaks.walls[0]->turn_bin);
-  EXPECT_NEAR(peaks.walls[1]->distance, -0.06, peaks.walls[1]->distance_bin);
+  ASSERT_FALSE(peaks.walls[0].empty() || peaks.walls[1].empty());
+  EXPECT_DOUBLE_EQ(peaks.walls[0].front().distance_bin, walls[0].gate.size().opening / 100.0);
+  EXPECT_DOUBLE_EQ(peaks.walls[0].front().turn_bin, walls[0].gate.size().angle / 100.0);
+  EXPECT_NEAR(peaks.turn, -0.05, peaks.walls[0].front().turn_bin);
+  EXPECT_NEAR(peaks.walls[1].front().distance, -0.06, peaks.walls[1].front().distance_bin);
 }
 
 }  // namespace

@@ -91,6 +91,22 @@ TEST(ScanAgreement, FurnitureSpeaksAgainstAPoseOnlyWhereRoomsAreBare) {
   EXPECT_LT(logLikelihood(agreement, *geometry, 0.85), -0.1);
 }
 
+// However long it is, something along a wall is one thing, while beams through a wall are each a
+// contradiction.
+TEST(ScanAgreement, OneLongWallSaysLessThanTwoOfHalfTheLength) {
+  test::SimulatedRooms rooms(kRoom);
+  const auto geometry = rooms.look({}, 1).geometry();
+  const Pose2 pose(0.5, 0.3, 0.4);
+  const ScanAgreement seen = agreementIn(rooms.map, rooms.look(pose, 1), pose);
+  EXPECT_GT(seen.repeated, 0.5 * static_cast<double>(seen.on_wall));
+  const double most = 4.0 * std::log(7.6);
+  EXPECT_LT(logLikelihood(seen, *geometry), most) << "four walls in sight";
+  ScanAgreement through = seen;
+  through.on_wall -= 40;
+  through.beyond += 40;
+  EXPECT_LT(logLikelihood(through, *geometry), logLikelihood(seen, *geometry) - 9.2);
+}
+
 const char* const kSuite = R"(
 rooms:
   hall: {size: [6.0, 4.0]}

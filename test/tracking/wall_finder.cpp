@@ -1,5 +1,6 @@
 #include "sightline/tracking/wall_finder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -33,8 +34,9 @@ TEST(WallFinder, FindsTheWallsFromAVaguePose) {
   test::SimulatedRooms rooms(kHall);
   const Pose2 truth(0.4, -0.3, 0.6);
   const Sweep sweep = readSweep(rooms.look(truth, 1), {});
-  const auto walls =
-      WallFinder(config).find(filterAt(config, {0.5, -0.2, 0.65}), rooms.map, kWalls, sweep);
+  const auto walls = WallFinder(config)
+                         .find(filterAt(config, {0.5, -0.2, 0.65}), rooms.map, kWalls, sweep)
+                         .front();
   int found = 0;
   for (const WallFit& wall : walls) {
     if (!wall.fit) continue;
@@ -56,8 +58,8 @@ TEST(WallFinder, CovarianceOfItsFitsHolds) {
   int count = 0;
   for (int i = 0; i < 400; ++i) {
     const Sweep sweep = readSweep(rooms.look(truth, i + 1), {});
-    for (const auto& wall :
-         WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, sweep)) {
+    const auto found = WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, sweep);
+    for (const auto& wall : found.front()) {
       if (!wall.fit) continue;
       const auto expected = geometry::transform(
           truth.inverse(), rooms.map.rooms()[0].walls[wall.wall].segment.line());
@@ -78,8 +80,8 @@ TEST(WallFinder, ABeamBelongsToOneWall) {
   const Pose2 truth(2.5, 1.5, 0.8);
   const Sweep sweep = readSweep(rooms.look(truth, 1), {});
   std::vector<int> uses(sweep.points.size(), 0);
-  for (const auto& wall :
-       WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, sweep)) {
+  const auto found = WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, sweep);
+  for (const auto& wall : found.front()) {
     if (!wall.fit) continue;
     for (const std::size_t beam : wall.fit->accepted_beams) ++uses[beam];
   }
@@ -101,7 +103,9 @@ TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
   const auto fitWith = [&](const Eigen::Vector3d& motion) {
     scan::Scan scan = still;
     scan.setSensorMotion(motion::sweepMotion(*scan.geometry(), Pose2(motion), {}));
-    return WallFinder(config).find(filterAt(config, truth), rooms.map, kWalls, readSweep(scan, {}));
+    return WallFinder(config)
+        .find(filterAt(config, truth), rooms.map, kWalls, readSweep(scan, {}))
+        .front();
   };
   const Eigen::Vector3d motion(0.002, 0.001, 0.001);
   const auto reference = fitWith(motion);
@@ -124,10 +128,29 @@ TEST(WallFinder, MotionJacobianIsTheDerivativeOfTheFit) {
   }
 }
 
+// A shelf of 0.3 m along the whole north wall, in a gate that is open for both, weighs as much as
+// the wall in the south, and the two contradict each other: that the robot is where it is believed
+// to be, with a shelf before the wall, is one of the choices.
+TEST(WallFinder, AShelfThatContradictsAWallLeavesTheWall) {
+  const TrackerConfig config = wallsAsDrawn();
+  const world::RoomMap map(config::Node::parse(kHall, "rooms"));
+  test::SimulatedRooms with_shelf("rooms: {hall: {size: [6.0, 3.7], pose: [0.0, -0.15, 0.0]}}");
+  const Pose2 truth(0.4, -0.3, 0.6);
+  const PoseFilter vague(config.odometry, {truth, Eigen::Vector3d(0.09, 0.09, 0.01).asDiagonal()});
+  const Sweep sweep = readSweep(with_shelf.look(truth, 1), {});
+  const auto choices = WallFinder(config).find(vague, map, kWalls, sweep);
+  EXPECT_GT(choices.size(), 1U);
+  EXPECT_TRUE(std::any_of(choices.begin(), choices.end(),
+                          [](const auto& fits) { return fits[0].fit && !fits[2].fit; }));
+  EXPECT_EQ(WallFinder(config).find(vague, map, kWalls, sweep, WallFinder::Lines::kHeaviest).size(),
+            1U);
+}
+
 TEST(WallFinder, NoBeamsNoWalls) {
   const TrackerConfig config = wallsAsDrawn();
   const test::SimulatedRooms rooms(kHall);
-  for (const auto& wall : WallFinder(config).find(filterAt(config, {}), rooms.map, kWalls, {})) {
+  const auto found = WallFinder(config).find(filterAt(config, {}), rooms.map, kWalls, {});
+  for (const auto& wall : found.front()) {
     EXPECT_FALSE(wall.fit);
     EXPECT_EQ(wall.refusal, WallRefusal::kTooFewBeams);
     EXPECT_EQ(wall.beams_in_gate, 0U);

@@ -41,8 +41,9 @@ struct Estimates {
 };
 
 /// Runs the estimators on located scans and hands values from one to another: the floor that the
-/// dead reckoner finds and the motion within the sweep that it knows, to lines and tracker; lines
-/// to the features. No estimator knows another. Not thread-safe.
+/// dead reckoner finds and the motion within the sweep that it knows, to lines and tracker, and its
+/// pose to the tracker where the settings leave wheels out; lines to the features. No estimator
+/// knows another. Not thread-safe.
 class Estimators {
  public:
   /// Throws config::Error.
@@ -63,7 +64,8 @@ class Estimators {
     lines::PlainExtractor plain;
   };
 
-  void restartRooms(const LocatedScan& located);
+  void restartRooms(const geometry::Pose2& T_odom_base);
+  std::optional<geometry::Pose2> odometryOf(const Estimates& estimates) const;
   void removeFloor(LocatedScan& located) const;
   bool isPlaced(const LocatedScan& located);
   void reckon(Estimates& estimates);
@@ -78,7 +80,7 @@ class Estimators {
   std::optional<tracking::RoomTracker> rooms_;
   std::optional<ScanOdometry> odometry_;
   std::optional<ScanFeatures> features_;
-  std::optional<geometry::Pose2> T_odom_base_;  // by wheels, at the last scan
+  std::optional<geometry::Pose2> T_odom_base_;  // that rooms went by at the last scan
   bool rooms_restart_ = false;                  // the clock was set since that scan
   bool is_mounting_known_ = false;              // of a scan that the odometry took
   std::optional<std::size_t> taken_for_base_;   // scanner of unknown mounting

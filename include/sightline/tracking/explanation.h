@@ -17,6 +17,7 @@ struct Explanation {
   std::vector<WallUpdate> walls;
   ScanAgreement agreement;
   double log_posterior = 0.0;  ///< up to a constant: prior, beams and walls
+  double log_repeats = 0.0;    ///< part of it by beams that repeat what others on a wall say
   /// What the robot is taken to have done since the last scan.
   enum class Motion { kWheels, kCoasting, kSlip, kUnknown } motion = Motion::kWheels;
 };

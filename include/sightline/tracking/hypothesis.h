@@ -11,6 +11,8 @@ namespace sightline::tracking {
 
 /// Probability by itself of a pose that counts as right.
 constexpr double kSure = 0.9;
+/// One that is not to be believed.
+constexpr double kHopeless = 0.1;
 
 struct Hypothesis {
   PoseTrack track;

@@ -40,10 +40,15 @@ class PoseTrack {
   TrackMemory& memory() { return memory_; }
 
  private:
-  // Walls are looked for as far as one filter leaves open, and correct the other.
+  // Walls are looked for as far as one filter leaves open, and correct the other. Where several
+  // lines may be a wall by what is predicted, the choice that explains the scan best; a motion that
+  // nobody predicted is as good as its heaviest lines.
   Explanation explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
                           const TrackingContext& context, const TrackerInput& input,
                           const Sweep& sweep) const;
+  Explanation explainBy(std::vector<WallFit> fits, const PoseFilter& prior,
+                        const TrackingContext& context, const TrackerInput& input,
+                        const Sweep& sweep) const;
   bool goesOn() const;
   bool haveStopped() const;
   bool isContradicted(const TrackingContext& context, const TrackerInput& input,

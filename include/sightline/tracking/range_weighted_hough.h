@@ -19,9 +19,13 @@ struct WallPeak {
 
 struct HoughPeaks {
   double turn = 0.0;  ///< Δφ, one for all walls [rad]
-  std::vector<std::optional<WallPeak>>
-      walls;  ///< one for each wall handed in; nothing where no beam voted
+  /// Peaks at that turn of each wall handed in, the heaviest first: a wall and what stands along it
+  /// are peaks of one gate.
+  std::vector<std::vector<WallPeak>> walls;
 };
+
+/// Bins between two peaks of one wall, at least: nearer ones are one wall that is uneven.
+constexpr int kBinsApart = 3;
 
 /// Local range-weighted Hough transform inside the gates (jensfelt section 4.2, after Forsberg et
 /// al.): each beam votes with its range for every line through it, since near beams lie closer

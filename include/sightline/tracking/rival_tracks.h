@@ -45,8 +45,12 @@ class RivalTracks {
   std::vector<RivalPose> rivals() const;
 
  private:
-  void move(const TrackingContext& context, const TrackerInput& input);
+  void moveAll(const TrackerInput& input);
+  void takeByPublished(const TrackingContext& context, const TrackerInput& input,
+                       bool is_published);
+  bool explainsLess(const TrackerInput& input) const;
   void look(const TrackingContext& context, const TrackerInput& input);
+  double likelihoodOf(ScanAgreement agreement, const TrackerInput& input) const;
   void weigh(const TrackerInput& input, bool is_new_key);
   void search(const TrackingContext& context, const TrackerInput& input);
   bool isTrusted(const geometry::Pose2& T_map_base) const;
@@ -55,10 +59,14 @@ class RivalTracks {
   void settle();
   void claimIfCertain();
   void dismissRivals();
+  void dismissSurprise(const TrackerInput& input);
   bool isToBeSearched() const;
+  bool isSureStart() const;
   bool isInDoubt() const;
   void publish(std::size_t index);
+  std::vector<Hypothesis>::iterator mostProbableRival();
   void takeOverIfCertain();
+  void giveUpStartIfWrong();
   TrackerState stateOf(const TrackingContext& context, double quality) const;
   TrackerUpdate report(const TrackingContext& context);
 

@@ -17,6 +17,9 @@ struct ScanAgreement {
 
   std::size_t looked_at = 0;  ///< all beams, those without a statement too
   std::size_t unjudged = 0;   ///< the map does not tell, or not surely, what they should meet
+  /// Of those on walls, as many as say again what others on the same wall have said: furniture that
+  /// stands along a wall is as long as a wall is.
+  double repeated = 0.0;
 
   /// Beams that say something for or against the pose.
   std::size_t evidence() const { return on_wall + beyond; }

@@ -24,6 +24,7 @@ struct FreiburgRun {
   std::string name;
   bool is_repaired = true;  ///< by the options of carmen_to_bag below
   bool has_start = true;    ///< whether the tracker is told the first pose
+  bool has_wheels = true;   ///< or goes by the dead reckoning from the scans
 };
 
 /// Poses of the scans that have one, and how many of them are flagged.
@@ -43,8 +44,9 @@ inline FreiburgPoses trackFreiburg(const std::string& log, const FreiburgRun& ru
   auto config =
       pipeline::EstimatorsConfig::readFile(SIGHTLINE_SOURCE_DIR "/config/offline/fr079.yaml");
   if (!run.has_start) config.rooms->initial_pose.reset();
+  if (!run.has_wheels) config.input.feed.odometry_source = pipeline::OdometrySource::kNone;
   bridge::BagFeed feed({folder.path("in.bag")}, config, {});
-  pipeline::Estimators estimators(config, {false, true, false});
+  pipeline::Estimators estimators(config, {false, true, !run.has_wheels});
   FreiburgPoses poses;
   bridge::BagFeed::Visitor visitor;
   visitor.scan = [&](pipeline::LocatedScan located, const ros::Time&) {
@@ -97,7 +99,8 @@ inline void printFreiburg() {
   }
   const auto relations = logs::readRelations((folder / "fr079.relations").string());
   for (const FreiburgRun& run : {FreiburgRun{"fr079"}, FreiburgRun{"fr079_raw", false},
-                                 FreiburgRun{"fr079_no_start", true, false}}) {
+                                 FreiburgRun{"fr079_no_start", true, false},
+                                 FreiburgRun{"fr079_laser_only", true, true, false}}) {
     const auto poses = trackFreiburg((folder / "fr079.clf.gz").string(), run);
     printPart(poses, relations, "rooms." + run.name, 0.0, 1.0);
     printPart(poses, relations, "rooms." + run.name + ".first_half", 0.0, 0.5);
