@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "sightline/dead_reckoning/surprise.h"
+
 namespace sightline::dead_reckoning {
 
 namespace {
@@ -42,12 +44,14 @@ struct SearchTuning {
 constexpr SearchTuning kSearch{};
 
 // One point for each stretch.
-std::vector<Eigen::Vector2d> thinOut(const std::vector<SurfacePoint>& points) {
-  std::vector<Eigen::Vector2d> thinned;
+std::vector<SurfacePoint> thinOut(const std::vector<SurfacePoint>& points) {
+  std::vector<SurfacePoint> thinned;
   for (const SurfacePoint& point : points) {
     if (point.position.norm() > kSearch.farthest) continue;
-    if (!thinned.empty() && (point.position - thinned.back()).norm() < kSearch.thinning) continue;
-    thinned.push_back(point.position);
+    if (!thinned.empty() && (point.position - thinned.back().position).norm() < kSearch.thinning) {
+      continue;
+    }
+    thinned.push_back(point);
   }
   const std::size_t stride = thinned.size() / kSearch.most_points + 1;
   for (std::size_t i = 0; i * stride < thinned.size(); ++i) thinned[i] = thinned[i * stride];
@@ -66,7 +70,8 @@ struct Block {
   int y;
   std::size_t heading;
   std::size_t level;
-  int bound;  // what its points count at most, together
+  int bound;  // what its points count at most, together, less what its distance from the prior
+              // costs
 
   // A block promises the less the larger it is, as its bound is further from what is in it.
   double promise() const {
@@ -77,14 +82,18 @@ struct Block {
 
 struct Pose {
   Pose2 T_odom_base;
-  int sum;  // what its points count, together
+  int sum;  // what its points count, together, less what its distance from the prior costs
 };
 
 class BranchAndBound {
  public:
-  BranchAndBound(const SearchRasters& rasters, const std::vector<Eigen::Vector2d>& points,
-                 const SearchWindow& window)
-      : rasters_(rasters), level_(firstLevel(window)) {
+  BranchAndBound(const SearchRasters& rasters, const std::vector<SurfacePoint>& points,
+                 const SearchWindow& window, const Eigen::Vector3d& sigma)
+      : rasters_(rasters),
+        full_(SearchRasters::kFull * static_cast<double>(points.size())),
+        centre_(window.centre),
+        precision_(sigma.cwiseInverse()),
+        level_(firstLevel(window)) {
     const int headings = headingsOf(window);
     const int blocks = blocksAlong(window, level_);
     corner_ = window.centre.translation().array() -
@@ -144,12 +153,13 @@ class BranchAndBound {
     return level;
   }
 
-  void turnTo(double heading, const std::vector<Eigen::Vector2d>& points) {
+  void turnTo(double heading, const std::vector<SurfacePoint>& points) {
     const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(heading).toRotationMatrix();
-    std::vector<Eigen::Vector2i> cells;
+    std::vector<SearchRasters::Cell> cells;
     cells.reserve(points.size());
-    for (const Eigen::Vector2d& point : points) {
-      cells.push_back(rasters_.cellOf(rotation * point + corner_));
+    for (const SurfacePoint& point : points) {
+      cells.push_back(
+          rasters_.cellOf(rotation * point.position + corner_, rotation * point.normal));
     }
     headings_.push_back(heading);
     cells_.push_back(std::move(cells));
@@ -164,7 +174,22 @@ class BranchAndBound {
 
   Block blockAt(int x, int y, std::size_t heading, std::size_t level) {
     ++evaluations_;
-    return {x, y, heading, level, rasters_.sum(level, cells_[heading], x, y)};
+    const int sum = rasters_.sum(level, cells_[heading], x, y);
+    return {x, y, heading, level, sum - surprise(x, y, heading, level)};
+  }
+
+  // Distance of a number from a stretch from `first` on.
+  static double outside(double value, double first, double length) {
+    return std::max({first - value, value - first - length, 0.0});
+  }
+
+  // What the distance of the nearest of a block's poses from the prior costs.
+  int surprise(int x, int y, std::size_t heading, std::size_t level) const {
+    const double size = sizeOf(level) - SearchRasters::kCell;
+    const Eigen::Vector3d off(outside(centre_.x(), corner_.x() + SearchRasters::kCell * x, size),
+                              outside(centre_.y(), corner_.y() + SearchRasters::kCell * y, size),
+                              geometry::wrapAngle(headings_[heading] - centre_.theta()));
+    return static_cast<int>(full_ * surpriseCost(off.cwiseProduct(precision_).squaredNorm()));
   }
 
   std::array<Block, 4> partsOf(const Block& block) {
@@ -200,10 +225,13 @@ class BranchAndBound {
   }
 
   const SearchRasters& rasters_;
+  double full_;  // what all points count on surfaces
+  Pose2 centre_;
+  Eigen::Vector3d precision_;  // 1/σ of the prior's coordinates
   std::size_t level_;
   Eigen::Vector2d corner_;
   std::vector<double> headings_;
-  std::vector<std::vector<Eigen::Vector2i>> cells_;  // of the points, by heading
+  std::vector<std::vector<SearchRasters::Cell>> cells_;  // of the points, by heading
   std::priority_queue<Block> open_;
   std::size_t evaluations_ = 0;
 };
@@ -211,10 +239,11 @@ class BranchAndBound {
 }  // namespace
 
 SearchResult searchRasters(const std::vector<SurfacePoint>& points, const SearchRasters& rasters,
-                           const SearchWindow& window, std::size_t most) {
-  const std::vector<Eigen::Vector2d> thinned = thinOut(points);
+                           const SearchWindow& window, const Eigen::Vector3d& sigma,
+                           std::size_t most) {
+  const std::vector<SurfacePoint> thinned = thinOut(points);
   if (thinned.empty()) return {};
-  BranchAndBound search(rasters, thinned, window);
+  BranchAndBound search(rasters, thinned, window, sigma);
   const double full = SearchRasters::kFull * static_cast<double>(thinned.size());
   SearchResult result;
   for (const Pose& peak : search.find(most)) {

@@ -65,9 +65,8 @@ DeadReckoner::DeadReckoner(const DeadReckonerConfig& config)
 std::optional<DeadReckoningUpdate> DeadReckoner::update(
     const scan::Scan& scan, const Pose2& T_base_sensor, const std::optional<MotionPrior>& prior,
     const std::optional<scan::ElapsedTime>& elapsed, std::size_t scanner) {
-  const std::optional<Match> found = match(scan, T_base_sensor, prior, elapsed, scanner);
-  if (!found) return std::nullopt;
-  return commit(*found);
+  const auto found = match(scan, T_base_sensor, prior, elapsed, scanner);
+  return found ? std::optional(commit(*found)) : std::nullopt;
 }
 
 std::optional<Match> DeadReckoner::match(const scan::Scan& scan, const Pose2& T_base_sensor,
@@ -243,7 +242,8 @@ void DeadReckoner::follow(const Match& match) {
   const ScannerTrack* own = tracks_.of(match.scanner);
   if (own != nullptr && match.outcome.state != MatchState::kInitial) {
     const Eigen::Vector3d twist = own->stepTo(T_odom_base_).log() / *match.since_own;
-    if (isFound(match)) habit_.learn(own->twist, twist, *match.since_own);
+    const bool is_motion = match.outcome.state == MatchState::kMatched;  // and no jump back
+    if (is_motion) habit_.learn(own->twist, twist, *match.since_own);
     acceleration = own->accelerationTo(twist, *match.since_own);
     twist_ = twist;
     moving_ = true;

@@ -20,7 +20,7 @@ struct PoseSpaceTuning {
   double corrected_share = 0.5;
   // Error of a point over the distance at which two points match: those of the reference are not
   // where those of the scan are, and neighbours share that.
-  double sigma_per_threshold = 5.0;
+  double sigma_per_threshold = 3.3;
   // Half side of the largest square that is searched [m], and poses that one level tries at most.
   // Where the window holds more, the first steps are twice as far apart, again and again; but not
   // so few points are counted.

@@ -23,9 +23,12 @@ double Reference::add(const SurfaceScan& surfaces, const geometry::Pose2& T_odom
   return submap_.add(T_odom_base, surfaces, most) / static_cast<double>(newest_.size());
 }
 
-Reference::Rasters Reference::rastersAbout(const Eigen::Vector2d& centre_odom) const {
-  if (rasters_ && rasters_->show(submap_, centre_odom)) return rasters_;
-  return std::make_shared<SearchRasters>(submap_, centre_odom);
+const SearchRasters& Reference::rastersAbout(const Eigen::Vector2d& centre_odom) const {
+  if (!rasters_ || !rasters_->show(submap_, centre_odom)) {
+    rasters_.reset();  // hands its memory on
+    rasters_ = std::make_unique<SearchRasters>(submap_, centre_odom);
+  }
+  return *rasters_;
 }
 
 }  // namespace sightline::dead_reckoning

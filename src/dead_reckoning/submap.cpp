@@ -56,12 +56,26 @@ double Submap::add(const geometry::Pose2& T_odom_base, const SurfaceScan& surfac
   if (first_.empty()) rebuild();
   double added = 0.0;
   for (const Surfel& surfel : keyframe.surfels) added += insert(surfel) ? 1.0 : 0.0;
+  const double surfels = static_cast<double>(std::max<std::size_t>(1, keyframe.surfels.size()));
+  for (Keyframe& other : keyframes_) compare(other, keyframe);
   keyframes_.push_back(std::move(keyframe));
-  if (keyframes_.size() > most) {
+  const bool is_misplaced = keyframes_.back().isMisplaced();
+  const bool are_many = keyframes_.size() > most;
+  if (are_many) {
     while (keyframes_.size() > most - most / kSubmap.batches) keyframes_.pop_front();
-    rebuild();
   }
-  return added / static_cast<double>(std::max<std::size_t>(1, keyframes_.back().surfels.size()));
+  if (takeOutMisplaced() || are_many) rebuild();
+  return is_misplaced ? 0.0 : added / surfels;
+}
+
+// Of two that contradict each other, the one that more others contradict is wrong. Where all do,
+// none is known to be.
+bool Submap::takeOutMisplaced() {
+  const auto first = std::remove_if(keyframes_.begin(), keyframes_.end(),
+                                    [](const Keyframe& each) { return each.isMisplaced(); });
+  if (first == keyframes_.begin() || first == keyframes_.end()) return false;
+  keyframes_.erase(first, keyframes_.end());
+  return true;
 }
 
 void Submap::rebuild() {

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "sightline/dead_reckoning/pose_difference.h"
+#include "sightline/dead_reckoning/surprise.h"
 
 namespace sightline::dead_reckoning {
 
@@ -50,6 +51,8 @@ struct MatchTuning {
   double neighbour_position = 0.25;
   double neighbour_heading = 0.1;
   double cost_gap = 0.05;
+  // A second explanation that is less expected by more than this costs is no rival: six nats.
+  double surprise_gap = 0.1;
   // A pose is alone where the reference knows this share of the scan, what it knows is explained
   // and not contradicted to these, and no other explanation costs little more.
   double alone_known = 0.3;
@@ -69,16 +72,19 @@ bool isDistinct(const Pose2& a, const Pose2& b) {
          std::abs(off[2]) > kMatch.distinct_heading;
 }
 
-// Tells whether refining one would lead to the other.
 bool isNeighbour(const Pose2& a, const Pose2& b) {
   const Eigen::Vector3d off = difference(a, b);
   return off.head<2>().norm() < kMatch.neighbour_position &&
          std::abs(off[2]) < kMatch.neighbour_heading;
 }
 
-bool isNear(const Pose2& pose, const UncertainPose2& prior) {
+double squaredDistance(const Pose2& pose, const UncertainPose2& prior) {
   const Eigen::Vector3d off = difference(pose, prior.mean);
-  return off.dot(prior.covariance.inverse() * off) < kMatch.near_prior;
+  return off.dot(prior.covariance.inverse() * off);
+}
+
+bool isNear(const Pose2& pose, const UncertainPose2& prior) {
+  return squaredDistance(pose, prior) < kMatch.near_prior;
 }
 
 // Whether a scan goes into the reference that is trusted. One that is the first to look where it
@@ -100,52 +106,41 @@ bool isAtTheMiddle(const Pose2& pose, const SearchWindow& window) {
 
 }  // namespace
 
-void SubmapMatcher::clear() {
-  trusted_ = {};
-  fresh_ = {};
-}
-
 MatchOutcome SubmapMatcher::match(const SurfaceScan& surfaces, const UncertainPose2& prior,
                                   const SearchWindow& window) const {
   const Task task{surfaces, RangeProfile(surfaces), prior, window};
-  Attempt first = matchWith(trusted_, task);
-  MatchOutcome& outcome = first.outcome;
-  outcome.reference.trusted_rasters = first.rasters;
-  if (fresh_.empty()) return outcome;
-  Rasters& fresh_rasters = outcome.reference.fresh_rasters;
-  if (outcome.state == MatchState::kMatched) {
-    if (differsFromFresh(outcome, task, fresh_rasters)) outcome.state = MatchState::kRecovered;
-    return outcome;
+  MatchOutcome first = matchWith(trusted_, task);
+  if (fresh_.empty()) return first;
+  const bool is_matched = first.state == MatchState::kMatched;
+  if (is_matched && isExpected(first, task)) return first;
+  MatchOutcome second = matchWith(fresh_, task);
+  if (is_matched && !isExplainedBetter(second, first)) {
+    // The scans before were bridged; if that went wrong, this pose is a jump.
+    if (isDistinct(second.T_odom_base, first.T_odom_base)) first.state = MatchState::kRecovered;
+    return first;
   }
-  Attempt second = matchWith(fresh_, task);
-  fresh_rasters = second.rasters;
-  if (second.outcome.state != MatchState::kMatched) return outcome;
-  second.outcome.evaluations += outcome.evaluations;
-  second.outcome.reference = outcome.reference;
-  second.outcome.reference.is_fresh = true;
-  return second.outcome;
+  if (second.state != MatchState::kMatched) return first;
+  second.evaluations += first.evaluations;
+  second.reference.is_fresh = true;
+  return second;
 }
 
-// The scans before were bridged; if that went wrong, this pose is a jump.
-bool SubmapMatcher::differsFromFresh(const MatchOutcome& outcome, const Task& task,
-                                     Rasters& rasters) const {
-  if (isNear(outcome.T_odom_base, task.prior) &&
-      !isDistinct(outcome.T_odom_base, task.prior.mean)) {
-    return false;
-  }
-  const Attempt other = matchWith(fresh_, task);
-  rasters = other.rasters;
-  return isDistinct(other.outcome.T_odom_base, outcome.T_odom_base);
+bool SubmapMatcher::isExpected(const MatchOutcome& outcome, const Task& task) {
+  return isNear(outcome.T_odom_base, task.prior) &&
+         !isDistinct(outcome.T_odom_base, task.prior.mean);
+}
+
+// Tells whether the second reference explains a scan, and so much better that the first one is
+// likely to have found a place that only looks alike.
+bool SubmapMatcher::isExplainedBetter(const MatchOutcome& second, const MatchOutcome& first) {
+  return second.state == MatchState::kMatched && second.cost + kMatch.alone_gap < first.cost;
 }
 
 double SubmapMatcher::learn(const SurfaceScan& surfaces, const Pose2& T_odom_base,
                             const MatchOutcome& outcome) {
   if (surfaces.points.size() < kMatch.fewest_points) return 0.0;
-  const ReferenceTrace& trace = outcome.reference;
-  if (trace.trusted_rasters) trusted_.keep(trace.trusted_rasters);
-  if (trace.fresh_rasters) fresh_.keep(trace.fresh_rasters);
   if (trusted_.empty()) return trusted_.add(surfaces, T_odom_base, config_);
-  if (trace.is_fresh) {
+  if (outcome.reference.is_fresh) {
     const double added = fresh_.add(surfaces, T_odom_base, config_);
     if (++fresh_matches_ >= kMatch.trusted_after) {
       trusted_ = std::move(fresh_);
@@ -163,16 +158,13 @@ double SubmapMatcher::learn(const SurfaceScan& surfaces, const Pose2& T_odom_bas
   return fresh_.add(surfaces, T_odom_base, config_);
 }
 
-SubmapMatcher::Attempt SubmapMatcher::matchWith(const Reference& reference,
-                                                const Task& task) const {
-  if (task.surfaces.points.size() < kMatch.fewest_points) return {{}, reference.rasters()};
+MatchOutcome SubmapMatcher::matchWith(const Reference& reference, const Task& task) const {
+  if (task.surfaces.points.size() < kMatch.fewest_points) return {};
   std::vector<Hypothesis> hypotheses;
   if (task.window.isWithin(kMatch.moderate * kMatch.narrow_position,
                            kMatch.moderate * kMatch.narrow_heading)) {
     hypotheses.push_back(refine(reference.submap(), task, task.window.centre, kMatch.local_scale));
-    if (isBeyondDoubt(hypotheses.back(), task)) {
-      return {conclude(hypotheses, task), reference.rasters()};
-    }
+    if (isBeyondDoubt(hypotheses.back(), task)) return conclude(hypotheses, task);
   }
   return matchWidely(reference, task, std::move(hypotheses));
 }
@@ -187,12 +179,13 @@ bool SubmapMatcher::isBeyondDoubt(const Hypothesis& local, const Task& task) {
          isNear(pose, task.prior) && (is_narrow || isAtTheMiddle(pose, task.window));
 }
 
-SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, const Task& task,
-                                                  std::vector<Hypothesis> hypotheses) const {
+MatchOutcome SubmapMatcher::matchWidely(const Reference& reference, const Task& task,
+                                        std::vector<Hypothesis> hypotheses) const {
   const Task wide = widened(task);
-  const Rasters rasters = reference.rastersAbout(task.window.centre.translation());
+  const SearchRasters& rasters = reference.rastersAbout(task.window.centre.translation());
   const std::size_t most = isNarrow(task.window) ? kMatch.narrow_candidates : kMatch.candidates;
-  const SearchResult found = searchRasters(task.surfaces.points, *rasters, wide.window, most);
+  const SearchResult found = searchRasters(task.surfaces.points, rasters, wide.window,
+                                           wide.prior.covariance.diagonal().cwiseSqrt(), most);
   std::vector<Hypothesis> candidates;
   for (const SearchCandidate& candidate : found.candidates) {
     const bool known =
@@ -206,7 +199,7 @@ SubmapMatcher::Attempt SubmapMatcher::matchWidely(const Reference& reference, co
   for (Hypothesis& candidate : candidates) hypotheses.push_back(std::move(candidate));
   MatchOutcome outcome = conclude(hypotheses, task);
   outcome.evaluations += found.evaluations;
-  return {outcome, rasters};
+  return outcome;
 }
 
 // A prediction that misled is believed as far as the window goes.
@@ -228,6 +221,8 @@ SubmapMatcher::Hypothesis SubmapMatcher::refine(const Submap& submap, const Task
   const LineMatcher lines(std::max(config_.surface_sigma, roughness));
   hypothesis.match = lines.match(task.surfaces, submap, start, task.prior, scale);
   hypothesis.evidence = weigh(hypothesis.match, task.surfaces, task.profile, submap);
+  const double square = squaredDistance(hypothesis.match.T_odom_base, task.prior);
+  hypothesis.cost = hypothesis.evidence.cost + surpriseCost(square);
   return hypothesis;
 }
 
@@ -252,18 +247,30 @@ bool SubmapMatcher::isAlone(const std::vector<Hypothesis>& hypotheses) {
     return false;
   }
   return std::none_of(hypotheses.begin() + 1, hypotheses.end(), [&](const Hypothesis& other) {
-    return other.evidence.cost < evidence.cost + kMatch.alone_gap &&
+    return other.cost < best.cost + kMatch.alone_gap &&
            isDistinct(other.match.T_odom_base, best.match.T_odom_base);
   });
+}
+
+// Of those that mean the same pose, the one that fits best goes first: the prior, which pulls at
+// each, chooses between explanations alone.
+void SubmapMatcher::putBestFirst(std::vector<Hypothesis>& hypotheses) {
+  std::sort(hypotheses.begin(), hypotheses.end(),
+            [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; });
+  const Pose2 pose = hypotheses.front().match.T_odom_base;
+  for (Hypothesis& other : hypotheses) {
+    if (other.evidence.cost < hypotheses.front().evidence.cost &&
+        !isDistinct(other.match.T_odom_base, pose)) {
+      std::swap(other, hypotheses.front());
+    }
+  }
 }
 
 MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const Task& task) const {
   MatchOutcome outcome;
   outcome.evaluations = hypotheses.size();
   if (hypotheses.empty()) return outcome;
-  std::sort(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& a, const Hypothesis& b) {
-    return a.evidence.cost < b.evidence.cost;
-  });
+  putBestFirst(hypotheses);
   const Hypothesis& best = hypotheses.front();
   outcome.T_odom_base = best.match.T_odom_base;
   const ResidualStatistics residuals = residualStatistics(best.match);
@@ -278,8 +285,11 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const 
   const bool is_taken = isClear(best, predicted) || isAlone(hypotheses);
   outcome.state = is_taken ? MatchState::kMatched : MatchState::kFailed;
   for (const Hypothesis& other : hypotheses) {
-    if (other.evidence.cost > best.evidence.cost + kMatch.cost_gap) break;
-    if (!isDistinct(other.match.T_odom_base, outcome.T_odom_base)) continue;
+    if (other.evidence.cost > best.evidence.cost + kMatch.cost_gap ||
+        other.cost > best.cost + kMatch.surprise_gap ||
+        !isDistinct(other.match.T_odom_base, outcome.T_odom_base)) {
+      continue;
+    }
     const Eigen::Vector3d off = difference(other.match.T_odom_base, outcome.T_odom_base);
     outcome.extra_covariance += off * off.transpose();
     if (outcome.state == MatchState::kMatched) outcome.state = MatchState::kAmbiguous;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace sightline::dead_reckoning {
 
@@ -27,23 +27,31 @@ double cellCentre(int index) {
   return (index + 0.5) * DistanceField::kCell - DistanceField::kReach;
 }
 
-// The best of `cells` x `cells` positions that fill a square evenly.
-Minimum searchSquare(const CellCost& cost, const Eigen::Vector2d& centre, double half, int cells) {
+// The positions that fill a square evenly, `cells` along each side, with their costs.
+void lookOver(const CellCost& cost, const Eigen::Vector2d& centre, double half, int cells,
+              std::vector<Minimum>& found) {
   const double cell = 2.0 * half / cells;
-  Minimum best;
-  best.cost = std::numeric_limits<double>::infinity();
   for (int y = 0; y < cells; ++y) {
     for (int x = 0; x < cells; ++x) {
       const Eigen::Vector2d position =
           centre + Eigen::Vector2d((x + 0.5) * cell - half, (y + 0.5) * cell - half);
-      const double here = cost(position, cell);
-      ++best.evaluations;
-      if (here >= best.cost) continue;
-      best.position = position;
-      best.cost = here;
+      found.push_back({position, cost(position, cell), 0});
     }
   }
-  return best;
+}
+
+bool isBetter(const Minimum& a, const Minimum& b) {
+  return a.cost < b.cost;
+}
+
+// The best two places, where their squares are not the same.
+void keepBest(double cell, std::vector<Minimum>& found) {
+  std::sort(found.begin(), found.end(), isBetter);
+  const auto second = std::find_if(found.begin(), found.end(), [&](const Minimum& other) {
+    return (other.position - found.front().position).cwiseAbs().maxCoeff() > 0.5 * cell;
+  });
+  if (second != found.end()) found[1] = *second;
+  found.resize(second != found.end() ? 2 : 1);
 }
 
 }  // namespace
@@ -88,21 +96,27 @@ double DistanceField::cost(const std::vector<Eigen::Vector2d>& points, const Eig
 
 Minimum searchIteratively(const CellCost& cost, const Eigen::Vector2d& centre, double half,
                           double resolution) {
-  Minimum best;
-  best.position = centre;
+  std::vector<Minimum> best{{centre, 0.0, 0}};
   std::size_t evaluations = 0;
   // The last cells are no larger than the resolution; rounding may leave them a trifle more.
   for (double width = half; 2.0 * width / kCells >= 0.99 * resolution; width *= 0.5) {
-    best = searchSquare(cost, best.position, width, kCells);
-    evaluations += best.evaluations;
+    std::vector<Minimum> found;
+    for (const Minimum& place : best) lookOver(cost, place.position, width, kCells, found);
+    evaluations += found.size();
+    keepBest(2.0 * width / kCells, found);
+    best = std::move(found);
   }
-  best.evaluations = evaluations;
-  return best;
+  best.front().evaluations = evaluations;
+  return best.front();
 }
 
 Minimum searchUniformly(const CellCost& cost, const Eigen::Vector2d& centre, double half,
                         double resolution) {
-  return searchSquare(cost, centre, half, static_cast<int>(std::lround(2.0 * half / resolution)));
+  std::vector<Minimum> found;
+  lookOver(cost, centre, half, static_cast<int>(std::lround(2.0 * half / resolution)), found);
+  Minimum best = *std::min_element(found.begin(), found.end(), isBetter);
+  best.evaluations = found.size();
+  return best;
 }
 
 }  // namespace sightline::dead_reckoning

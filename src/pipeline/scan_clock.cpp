@@ -19,6 +19,11 @@ constexpr struct {
   double short_step = 0.3;
   // Shorter than the period of any scanner [s]: inside a burst.
   double least_period = 0.008;
+  // Period, and time that may have passed at most, while fewer stamps are known than tell the
+  // period and two of them are inside a burst; a clock that goes back by more than the latter was
+  // set [s].
+  double first_period = 0.1;
+  double first_longest = 1.0;
   // Scans that may have been lost between two that got through, and how much longer than any other
   // step one has to be to be a pause.
   double periods_lost = 3.0;
@@ -78,8 +83,14 @@ double ScanClock::longestStepBefore() const {
 }
 
 std::optional<scan::ElapsedTime> ScanClock::sinceBefore() const {
-  if (stamps_.size() < kClock.fewest || period_ <= 0.0) return std::nullopt;
+  if (stamps_.size() < 2) return std::nullopt;
   const double by_stamps = step(stamps_.size() - 1);
+  if (stamps_.size() < kClock.fewest) {
+    const bool is_in_burst = by_stamps < kClock.least_period && by_stamps > -kClock.first_longest;
+    if (!is_in_burst) return std::nullopt;
+    return scan::ElapsedTime{kClock.first_period, kClock.first_longest, kClock.first_period};
+  }
+  if (period_ <= 0.0) return std::nullopt;
   if (!is_of_arrival_ && by_stamps > 0.0) return std::nullopt;
   if (by_stamps > kClock.pause * longestStepBefore()) return std::nullopt;
   return scan::ElapsedTime{period_, std::max(kClock.periods_lost * period_, by_stamps),

@@ -9,6 +9,7 @@
 #include "odometry/at_rest.h"
 #include "odometry/body_worn.h"
 #include "odometry/consistency.h"
+#include "odometry/long_way.h"
 #include "odometry/node.h"
 #include "odometry/recordings.h"
 #include "odometry/searcher.h"
@@ -47,6 +48,7 @@ int main() {
   }
   bench::measureAtRest();
   bench::measureConsistency();
+  bench::measureLongWays();
   bench::measureBodyWorn();
   bench::measureOdometryNode();
   return 0;

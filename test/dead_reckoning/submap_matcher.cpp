@@ -59,7 +59,6 @@ TEST_F(SubmapMatcherInRoom, SearchesAWideWindow) {
   const MatchOutcome outcome = matcher_.match(lookFrom(room_, pose), vague, {Pose2(), 1.2, 1.0});
   EXPECT_EQ(outcome.state, MatchState::kMatched);
   EXPECT_GT(outcome.evaluations, 1000U);
-  EXPECT_TRUE(outcome.reference.trusted_rasters);
   expectNear(outcome.T_odom_base, pose);
 }
 
@@ -129,6 +128,34 @@ TEST_F(SubmapMatcherInRoom, ClearForgetsTheReference) {
   EXPECT_TRUE(matcher_.hasReference());
   matcher_.clear();
   EXPECT_FALSE(matcher_.hasReference());
+}
+
+TEST(Submap, TakesOutAScanThatWasPutInAtAWrongPose) {
+  test::Viewer viewer(test::furnishedRoom(), test::scanner(), 3);
+  const auto surfacesAt = [&](const Pose2& pose) {
+    return readSurfaces(viewer.look(pose, 0.0), Pose2(), Eigen::Vector3d::Zero());
+  };
+  Submap submap;
+  submap.add({}, surfacesAt({}), 20);
+  const Pose2 wrong(0.5, 0.9, 0.4);
+  submap.add(wrong, surfacesAt({0.4, 0.0, 0.0}), 20);
+  EXPECT_EQ(submap.keyframes().size(), 2U);  // One against one: none is known to be wrong.
+  for (const double x : {0.8, 1.2}) submap.add({x, 0.0, 0.1}, surfacesAt({x, 0.0, 0.1}), 20);
+  ASSERT_EQ(submap.keyframes().size(), 3U);
+  for (const Keyframe& keyframe : submap.keyframes()) {
+    EXPECT_GT((keyframe.T_odom_base.translation() - wrong.translation()).norm(), 0.1);
+  }
+}
+
+TEST(Submap, RefusesAScanThatTwoOthersContradict) {
+  test::Viewer viewer(test::furnishedRoom(), test::scanner(), 4);
+  const auto surfacesAt = [&](const Pose2& pose) {
+    return readSurfaces(viewer.look(pose, 0.0), Pose2(), Eigen::Vector3d::Zero());
+  };
+  Submap submap;
+  for (const double x : {0.0, 0.4, 0.8}) submap.add({x, 0.0, 0.0}, surfacesAt({x, 0.0, 0.0}), 20);
+  EXPECT_EQ(submap.add({0.9, 0.9, 0.4}, surfacesAt({1.2, 0.0, 0.0}), 20), 0.0);
+  EXPECT_EQ(submap.keyframes().size(), 3U);
 }
 
 }  // namespace

@@ -71,6 +71,17 @@ TEST(ScanClock, KnowsAPauseFromABurst) {
   EXPECT_FALSE(clock.sinceBefore());
 }
 
+TEST(ScanClock, KnowsABurstBeforeItKnowsThePeriod) {
+  ScanClock clock;
+  clock.add(at(100.0));
+  EXPECT_FALSE(clock.sinceBefore());
+  clock.add(at(100.001));
+  ASSERT_TRUE(clock.sinceBefore());
+  EXPECT_GT(clock.sinceBefore()->longest, 0.5);
+  clock.add(at(100.2));
+  EXPECT_FALSE(clock.sinceBefore());
+}
+
 TEST(ScanClock, BridgesASingleStampThatGoesBack) {
   ScanClock clock;
   for (int i = 0; i < 40; ++i) clock.add(at(100.0 + kPeriod * i));

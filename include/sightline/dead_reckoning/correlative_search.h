@@ -12,7 +12,9 @@ namespace sightline::dead_reckoning {
 
 struct SearchCandidate {
   geometry::Pose2 T_odom_base;
-  double score = 0.0;  ///< [0, 1], share of the points that lie on the reference
+  /// Share of the points that lie on the reference, less what its distance from the prior costs
+  /// (surpriseCost), up to 1.
+  double score = 0.0;
 };
 
 struct SearchResult {
@@ -27,8 +29,11 @@ struct SearchResult {
 /// bounded, however wide the window is.
 ///
 /// @param rasters  drawn about the window's centre
+/// @param sigma    standard deviations of the prior's coordinates, about the window's centre
+///                 [m, m, rad]
 /// @param most     candidates
 SearchResult searchRasters(const std::vector<SurfacePoint>& points, const SearchRasters& rasters,
-                           const SearchWindow& window, std::size_t most);
+                           const SearchWindow& window, const Eigen::Vector3d& sigma,
+                           std::size_t most);
 
 }  // namespace sightline::dead_reckoning

@@ -13,15 +13,10 @@
 
 namespace sightline::dead_reckoning {
 
-class SearchRasters;
-
 /// Results of a match that the matcher needs again when it learns the scan.
 struct ReferenceTrace {
   bool is_held = false;   ///< the reference scan explains the scan well enough to be kept
   bool is_fresh = false;  ///< the second reference explains the scan, the first does not
-  /// Rasters that the match drew, null where it needed none.
-  std::shared_ptr<const SearchRasters> trusted_rasters;
-  std::shared_ptr<const SearchRasters> fresh_rasters;
 };
 
 /// Result of matching one scan.

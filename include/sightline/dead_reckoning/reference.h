@@ -18,8 +18,6 @@ namespace sightline::dead_reckoning {
 /// search last drew of it.
 class Reference {
  public:
-  using Rasters = std::shared_ptr<const SearchRasters>;
-
   bool empty() const { return submap_.empty(); }
   const Submap& submap() const { return submap_; }
   /// Whether a scan of this scanner is in it.
@@ -30,15 +28,13 @@ class Reference {
   double add(const SurfaceScan& surfaces, const geometry::Pose2& T_odom_base,
              const SubmapConfig& config);
 
-  const Rasters& rasters() const { return rasters_; }
-  void keep(Rasters rasters) { rasters_ = std::move(rasters); }
-  /// Those that are kept, where they show the submap about that place; otherwise new ones.
-  Rasters rastersAbout(const Eigen::Vector2d& centre_odom) const;
+  /// Rasters that show the submap about a place; drawn anew where the last ones do not.
+  const SearchRasters& rastersAbout(const Eigen::Vector2d& centre_odom) const;
 
  private:
   Submap submap_;
-  Rasters rasters_;
-  std::map<std::size_t, geometry::Pose2> newest_;  // keyframe of each scanner
+  mutable std::unique_ptr<SearchRasters> rasters_;  // kept for the next search
+  std::map<std::size_t, geometry::Pose2> newest_;   // keyframe of each scanner
 };
 
 }  // namespace sightline::dead_reckoning

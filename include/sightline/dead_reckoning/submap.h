@@ -7,37 +7,21 @@
 
 #include <Eigen/Core>
 
+#include "sightline/dead_reckoning/keyframe.h"
 #include "sightline/dead_reckoning/range_profile.h"
 #include "sightline/dead_reckoning/surface_points.h"
 #include "sightline/geometry/pose2.h"
 
 namespace sightline::dead_reckoning {
 
-/// A small straight piece of a surface, in the frame odom.
-struct Surfel {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m]
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();    ///< unit, to the side it was seen from
-  double normal_variance = 0.0;                        ///< of its direction [rad²]
-  double reach = 0.0;                                  ///< half length [m]
-};
-
-/// A scan of the reference.
-struct Keyframe {
-  std::size_t scanner = 0;  // that took it
-  geometry::Pose2 T_odom_base;
-  Eigen::Matrix2d R_base_odom;
-  std::vector<SurfacePoint> points;  // in its base
-  RangeProfile profile;              // in its base
-  std::vector<Surfel> surfels;
-};
-
 /// The reference of the matching: the surfaces seen from a number of keyframes, found by place.
 class Submap {
  public:
   void clear();
   bool empty() const { return keyframes_.empty(); }
-  /// Adds a scan at its pose; beyond `most` the oldest are dropped. Returns the share of its
-  /// surfels that were new.
+  /// Adds a scan at its pose; beyond `most` the oldest are dropped. A scan that was put in at a
+  /// wrong pose, as others now tell, is taken out, be it this one. Returns the share of its surfels
+  /// that were new.
   double add(const geometry::Pose2& T_odom_base, const SurfaceScan& surfaces, std::size_t most);
 
   /// The surfel nearest to a point [m, odom] among those that face as `normal` does (any, where
@@ -64,6 +48,7 @@ class Submap {
     const Surfel* surfel;
   };
   void rebuild();
+  bool takeOutMisplaced();
   void look(std::size_t cell, Nearest& nearest) const;
   bool insert(const Surfel& surfel);
 

@@ -22,20 +22,23 @@ namespace sightline::dead_reckoning {
 /// of them sees is matched with what any has seen.
 class SubmapMatcher : public Matcher {
  public:
-  explicit SubmapMatcher(const SubmapConfig& config) : config_(config) {}
+  explicit SubmapMatcher(const SubmapConfig& config) : config_(config) { SearchRasters::reserve(); }
 
   bool hasReference() const override { return !trusted_.empty(); }
   MatchOutcome match(const SurfaceScan& surfaces, const geometry::UncertainPose2& prior,
                      const SearchWindow& window) const override;
   double learn(const SurfaceScan& surfaces, const geometry::Pose2& T_odom_base,
                const MatchOutcome& outcome) override;
-  void clear() override;
+  void clear() override {
+    trusted_ = {};
+    fresh_ = {};
+  }
 
  private:
-  using Rasters = Reference::Rasters;
   struct Hypothesis {
     LineMatch match;
     Evidence evidence;
+    double cost = 1.0;  // of the evidence and of the surprise
   };
   /// A scan and what is known of its pose.
   struct Task {
@@ -44,19 +47,17 @@ class SubmapMatcher : public Matcher {
     geometry::UncertainPose2 prior;
     SearchWindow window;
   };
-  struct Attempt {
-    MatchOutcome outcome;
-    Rasters rasters;
-  };
 
-  Attempt matchWith(const Reference& reference, const Task& task) const;
+  MatchOutcome matchWith(const Reference& reference, const Task& task) const;
   static bool isBeyondDoubt(const Hypothesis& local, const Task& task);
-  Attempt matchWidely(const Reference& reference, const Task& task,
-                      std::vector<Hypothesis> hypotheses) const;
+  MatchOutcome matchWidely(const Reference& reference, const Task& task,
+                           std::vector<Hypothesis> hypotheses) const;
   static Task widened(const Task& task);
-  bool differsFromFresh(const MatchOutcome& outcome, const Task& task, Rasters& rasters) const;
+  static bool isExpected(const MatchOutcome& outcome, const Task& task);
+  static bool isExplainedBetter(const MatchOutcome& second, const MatchOutcome& first);
   Hypothesis refine(const Submap& submap, const Task& task, const geometry::Pose2& start,
                     double scale) const;
+  static void putBestFirst(std::vector<Hypothesis>& hypotheses);
   MatchOutcome conclude(std::vector<Hypothesis>& hypotheses, const Task& task) const;
   bool isClear(const Hypothesis& hypothesis, bool predicted) const;
   static bool isAlone(const std::vector<Hypothesis>& hypotheses);

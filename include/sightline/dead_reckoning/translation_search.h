@@ -48,8 +48,9 @@ using CellCost = std::function<double(const Eigen::Vector2d& position, double ce
 
 /// The iterative searcher of saarinen section 4.3.4.2 (fig. 4.13): the square ±half about the
 /// centre is divided into 4 x 4 cells, the best of them is the centre of the next square, half as
-/// wide, until the cells are as small as the resolution. ±1.28 m at 0.02 m takes 6 times 16
-/// evaluations.
+/// wide, until the cells are as small as the resolution. Two squares are followed, as a wide cell
+/// is known by its middle alone, and the second best may hold the minimum: ±1.28 m at 0.02 m takes
+/// 16 and then 5 times 32 evaluations.
 Minimum searchIteratively(const CellCost& cost, const Eigen::Vector2d& centre, double half,
                           double resolution);
 

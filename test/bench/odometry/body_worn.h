@@ -19,9 +19,11 @@
 ///
 /// odometry.body_worn.drift_percent, heading_deg: error at the end of the way over its length, mean
 /// of the walks, and mean error of the heading there. bad_steps: steps from scan to scan that are
-/// off by more than 0.2 m or 5°, all walks together. floor_recall, floor_precision: of the beams
-/// that ended on floor or ceiling. odometry.body_worn.corridor_*: 20 m along a corridor without any
-/// feature: NEES of the steps (3 degrees of freedom) and share of them that are flagged.
+/// off by more than 0.2 m or 5°, all walks together. odometry.body_worn_<method>.*: by the thesis's
+/// own methods, searched in its worst-case window of ±0.4 m and ±40° at 5 Hz. floor_recall,
+/// floor_precision: of the beams that ended on floor or ceiling. odometry.body_worn.corridor_*: 20
+/// m along a corridor without any feature: NEES of the steps (3 degrees of freedom) and share of
+/// them that are flagged.
 namespace sightline::bench {
 
 struct BodyWornScore {
@@ -42,10 +44,11 @@ struct BodyWornScore {
 /// One walk with its score.
 class BodyWornWalk {
  public:
-  BodyWornWalk(const Building& building, double reach, std::uint64_t seed)
+  BodyWornWalk(const Building& building, double reach, std::uint64_t seed,
+               dead_reckoning::Method method = dead_reckoning::Method::kSubmap)
       : building_(building),
         simulation_(building.world, person(), start(), seed),
-        odometry_(profileOfCarrier(), floorOfCarrier()) {
+        odometry_(profileOfCarrier(method), floorOfCarrier()) {
     simulation_.carrier().walk({});
     simulation::ScannerProfile scanner;
     scanner.beams = 361;
@@ -93,9 +96,14 @@ class BodyWornWalk {
   static config::Node carrier() {
     return config::Node::readFile(SIGHTLINE_SOURCE_DIR "/config/carriers/body_worn.yaml");
   }
-  static pipeline::ScanOdometryConfig profileOfCarrier() {
+  static pipeline::ScanOdometryConfig profileOfCarrier(dead_reckoning::Method method) {
     pipeline::ScanOdometryConfig config;
     config::read(carrier().at("odometry"), config);
+    config.matching.method = method;
+    // A velocity that may be any other at the next scan: the window is what the bounds allow.
+    if (method != dead_reckoning::Method::kSubmap) {
+      config.matching.carrier = {2.0, geometry::radians(200.0), 100.0, 100.0};
+    }
     return config;
   }
   static motion::FloorConfig floorOfCarrier() {
@@ -204,6 +212,22 @@ inline void measureBuildings(int seeds) {
              percent(found, found + static_cast<double>(score.floor_mistaken)));
 }
 
+inline void measureMethodsOnWalks(int seeds) {
+  using dead_reckoning::Method;
+  for (const auto& [method, name] :
+       {std::pair(Method::kHistogram, "histogram"), {Method::kPoseSpace, "pose_space"}}) {
+    BodyWornScore score;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const Building building = serpentineBuilding(200.0, static_cast<std::uint64_t>(seed));
+      BodyWornWalk(building, 80.0, static_cast<std::uint64_t>(seed), method).run(score);
+    }
+    fmt::print("odometry.body_worn_{}.drift_percent {:.3f} %\n", name,
+               100.0 * score.drift / score.walks);
+    fmt::print("odometry.body_worn_{}.bad_steps {} 1\n", name, score.bad_steps);
+    fmt::print("odometry.body_worn_{}.nees {:.2f} 1\n", name, score.nees / score.steps);
+  }
+}
+
 inline void measurePlainCorridor(int seeds) {
   constexpr double kReach = 8.0;  // m: neither end of the corridor is ever seen
   const Building corridor = plainCorridor(20.0, kReach);
@@ -220,6 +244,8 @@ inline void measureBodyWorn() {
   constexpr int kSeeds = 20;
   measureBuildings(kSeeds);
   measurePlainCorridor(kSeeds);
+  constexpr int kSlowSeeds = 3;
+  measureMethodsOnWalks(kSlowSeeds);
 }
 
 }  // namespace sightline::bench

@@ -38,6 +38,13 @@ class Builder {
     return {std::move(world_), std::move(way_)};
   }
 
+  Building corridor(double length, double beyond) {
+    const double half = 0.5 * draw(1.8, 2.4);
+    wallWithRecesses({-beyond, -half}, {length + beyond, -half});
+    wallWithRecesses({length + beyond, half}, {-beyond, half});
+    return {std::move(world_), {{0.0, 0.0}, {length, 0.0}}};
+  }
+
  private:
   using Point = Eigen::Vector2d;
   static constexpr double kCeiling = 2.6;
@@ -205,6 +212,12 @@ class Builder {
 /// A building with a way of at least this length [m].
 inline Building serpentineBuilding(double length, std::uint64_t seed) {
   return Builder(seed).serpentine(length);
+}
+
+/// A straight corridor with shut doors set back every three to six metres, its ends beyond the
+/// reach of a scanner that sees `reach` [m], with a way of this length in its middle.
+inline Building recessedCorridor(double length, double reach, std::uint64_t seed) {
+  return Builder(seed).corridor(length, reach + 1.0);
 }
 
 /// A straight corridor without anything in it, 2 m wide, its ends beyond the reach of a scanner

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+
+namespace sightline::dead_reckoning {
+
+/// Cost of a pose that was not expected, as the share of a scan whose being left unexplained
+/// counts as much: one pose explains more of a scan than another, the other is nearer to what was
+/// expected, and both are weighed in the logarithm of their probability.
+///
+/// How much a carrier's motion surprises is learned from a few scans, so that the motion follows
+/// Student's distribution. A scan shows some twenty things, doors, people, pieces of wall, each of
+/// which a right pose explains with odds of twenty to one.
+///
+/// @param square  squared Mahalanobis distance from what was expected (3 degrees of freedom)
+inline double surpriseCost(double square) {
+  constexpr double kFreedom = 10.0;
+  constexpr double kNatsPerScan = 60.0;  // twenty things, the logarithm of twenty each
+  return 0.5 * (kFreedom + 3.0) / kNatsPerScan * std::log1p(square / kFreedom);
+}
+
+}  // namespace sightline::dead_reckoning
