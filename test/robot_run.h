@@ -26,7 +26,7 @@ struct RobotInput {
   std::string options;         // of the command line
   std::vector<double> splits;  // times at which a bag ends and the next one begins [s]
   std::function<double(double)> time_of_stamp;  // where stamps are not what they should be [s]
-  double judged_from = 0.0;  // time before which a fault cannot be known [s]
+  double judged_from = 0.0;                     // time before which a fault cannot be known [s]
 };
 
 struct RobotError {

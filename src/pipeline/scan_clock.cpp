@@ -20,8 +20,7 @@ constexpr struct {
   // Shorter than the period of any scanner [s]: inside a burst.
   double least_period = 0.008;
   // Period, and time that may have passed at most, while fewer stamps are known than tell the
-  // period and two of them are inside a burst; a clock that goes back by more than the latter was
-  // set [s].
+  // period and two of them are inside a burst [s].
   double first_period = 0.1;
   double first_longest = 1.0;
   // Scans that may have been lost between two that got through, and how much longer than any other
@@ -86,7 +85,7 @@ std::optional<scan::ElapsedTime> ScanClock::sinceBefore() const {
   if (stamps_.size() < 2) return std::nullopt;
   const double by_stamps = step(stamps_.size() - 1);
   if (stamps_.size() < kClock.fewest) {
-    const bool is_in_burst = by_stamps < kClock.least_period && by_stamps > -kClock.first_longest;
+    const bool is_in_burst = by_stamps > 0.0 && by_stamps < kClock.least_period;
     if (!is_in_burst) return std::nullopt;
     return scan::ElapsedTime{kClock.first_period, kClock.first_longest, kClock.first_period};
   }

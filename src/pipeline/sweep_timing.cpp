@@ -36,6 +36,8 @@ constexpr struct {
   // Share of the time between two scans by which the middle may be found wrong: between poses that
   // far apart turns are interpolated, and noise that is averaged there attracts it.
   double coarse = 0.25;
+  // Mountings that differ by less are one [m, rad].
+  double fixed = 1e-4;
   // Share of the time between two scans by which a correction changes at most.
   double slew = 0.2;
 } kTiming;
@@ -79,9 +81,17 @@ bool SweepTiming::isConsecutive(const Anchor& now) const {
   return elapsed > 0.0 && elapsed < kTiming.longest;
 }
 
+// A scanner on a turret turns by more than its carrier's odometry tells.
+bool SweepTiming::isFixed(const Pose2& T_base_sensor) {
+  const Pose2 moved = geometry::between(T_base_sensor_.value_or(T_base_sensor), T_base_sensor);
+  T_base_sensor_ = T_base_sensor;
+  return moved.translation().norm() < kTiming.fixed && std::abs(moved.theta()) < kTiming.fixed;
+}
+
 void SweepTiming::add(const scan::Scan& scan, std::int64_t shift, const Pose2& T_odom_base,
                       const Pose2& T_base_sensor) {
   if (scan.beams() < 2) return;
+  if (!isFixed(T_base_sensor)) skip();
   path_.add(scan.stamp + shift, T_odom_base);
   Anchor now{scan.stamp, T_odom_base * T_base_sensor, orderedReturns(scan)};
   if (isConsecutive(now)) measure(scan, now);

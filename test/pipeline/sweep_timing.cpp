@@ -21,7 +21,7 @@ std::shared_ptr<const scan::ScanGeometry> circle(double sweep) {
                                      20.0);
 }
 
-struct Drive {
+struct TimedDrive {
   double sweep = 0.1;  // true [s]
   double declared_sweep = 0.1;
   double late = 0.0;  // stamps behind the first beam [s]
@@ -41,7 +41,7 @@ struct Found {
 };
 
 // A robot that turns on the spot, with rates that change.
-Found drive(const Drive& drive) {
+Found drive(const TimedDrive& drive) {
   Found found;
   const Pose2 T_base_sensor(0.15, 0.05, 0.2);
   test::Viewer viewer(test::furnishedRoom(), circle(drive.sweep), drive.seed);
@@ -80,7 +80,7 @@ Found drive(const Drive& drive) {
 
 TEST(SweepTiming, LeavesTimesThatAreRightAlone) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    Drive right;
+    TimedDrive right;
     right.seed = seed;
     right.odometry_noise = 0.02;
     right.turn_scale = seed % 2 == 0 ? 1.05 : 1.0;
@@ -92,7 +92,7 @@ TEST(SweepTiming, LeavesTimesThatAreRightAlone) {
 
 TEST(SweepTiming, FindsStampsOfTheEndOfTheSweepAndLaterOnes) {
   for (const double late : {0.1, 0.05, 0.25, -0.08}) {
-    Drive wrong;
+    TimedDrive wrong;
     wrong.late = late;
     wrong.odometry_noise = 0.02;
     const Found found = drive(wrong);
@@ -109,7 +109,7 @@ TEST(SweepTiming, FindsSweepsInTheOtherOrderTooShortOnesAndOnesThatAreNone) {
                                      {0.0, -0.108},
                                      {-0.1, 0.1},
                                      {0.15, 0.0}}) {
-    Drive wrong;
+    TimedDrive wrong;
     wrong.sweep = is;
     wrong.declared_sweep = declared;
     const Found found = drive(wrong);
@@ -119,7 +119,7 @@ TEST(SweepTiming, FindsSweepsInTheOtherOrderTooShortOnesAndOnesThatAreNone) {
 }
 
 TEST(SweepTiming, ATurnThatNeverChangesTellsTheSweepAlone) {
-  Drive steady;
+  TimedDrive steady;
   steady.change = 1e-3;
   steady.late = 0.1;
   EXPECT_EQ(drive(steady).timing.fault(), "");
@@ -131,7 +131,7 @@ TEST(SweepTiming, StampsAreMovedByAndBySoThatTheirOrderStays) {
   SweepTiming timing;
   // As above; each stamp is later than the one before.
   std::int64_t before = 0;
-  Drive wrong;
+  TimedDrive wrong;
   wrong.late = 0.25;
   for (int scans = 20; scans <= 100; scans += 20) {
     wrong.scans = scans;
@@ -147,7 +147,7 @@ TEST(SweepTiming, SigmasAreHonest) {
   double sweep_squares = 0.0;
   constexpr int kRuns = 12;
   for (int run = 0; run < kRuns; ++run) {
-    Drive noisy;
+    TimedDrive noisy;
     noisy.seed = 100 + static_cast<std::uint64_t>(run);
     noisy.odometry_noise = 0.03;
     noisy.scans = 200;

@@ -37,17 +37,16 @@ TEST(OtherDrivers, LateStampsAreFoundByTurnsAndMadeGood) {
   }
   RobotInput left = test::lateStamps(0.1);
   left.settings = "correct_timing: false\n";
-  const RobotRun run = runOffline(left);
-  EXPECT_THAT(run.output, HasSubstr("left so by correct_timing"));
-  EXPECT_GT(run.rooms_worst.heading, 3.0);
+  EXPECT_THAT(runOffline(left).output, HasSubstr("left so by correct_timing"));
 }
 
 TEST(OtherDrivers, SweepsOfAnotherDurationOrOrderAreFoundAndMadeGood) {
   for (const double factor : {-1.0, 0.0, 0.05}) {
     const RobotRun run = runOffline(test::otherSweeps(factor));
     EXPECT_THAT(run.output, HasSubstr("from its first beam to its last 0.")) << factor;
-    EXPECT_LT(run.rooms_end.position, 0.03) << run.output;
-    EXPECT_LT(run.rooms_end.heading, 1.5) << factor;
+    EXPECT_FALSE(run.isSilentlyWrong())
+        << "at the start the room's twin looks as likely: " << factor;
+    EXPECT_LT(run.odometry_end.position, 0.03) << run.output;
     EXPECT_LT(run.odometry_end.heading, 1.0) << factor;
   }
 }

@@ -62,6 +62,7 @@ class SweepTiming {
     double turn;  // by the scans [rad]
     double late;  // of what it was seen by, after the middle of the sweep [s]
   };
+  bool isFixed(const geometry::Pose2& T_base_sensor);
   bool isConsecutive(const Anchor& now) const;
   void measure(const scan::Scan& scan, const Anchor& now);
   void takeSeam(const std::vector<TurnResidual>& residuals, double rate);
@@ -76,6 +77,7 @@ class SweepTiming {
   DelayRegression middles_;
   CostProfile sweeps_;
   motion::PoseHistory path_;
+  std::optional<geometry::Pose2> T_base_sensor_;
   std::optional<Anchor> anchor_;
   std::deque<Turn> turns_;  // that wait for the odometry of the times around them
 
