@@ -47,30 +47,7 @@ TEST(PolygonRooms, AnObliqueRoomHasTheSidesItHas) {
 class RoundHallTest : public testing::Test {
  protected:
   const FittedBuilding building_{bench::roundHall()};
-  const RoomOutline& hall() const {
-    return *std::max_element(
-        building_.fitted.rooms.begin(), building_.fitted.rooms.end(),
-        [](const RoomOutline& a, const RoomOutline& b) { return a.area() < b.area(); });
-  }
 };
-
-TEST_F(RoundHallTest, IsDescribedByManySides) {
-  ASSERT_EQ(building_.fitted.rooms.size(), 3U);
-  EXPECT_TRUE(building_.fitted.missing_doors.empty());
-  EXPECT_GT(hall().sides.size(), 10U);
-  EXPECT_NEAR(hall().area(), geometry::kPi * 25.0, 2.0);
-}
-
-TEST_F(RoundHallTest, SaysHowFarItsSidesAreFromTheWall) {
-  const world::RoomMap map(config::Node::parse(roomsText(building_.fitted), "fitted"));
-  const auto index = map.find(hall().name);
-  ASSERT_TRUE(index);
-  std::size_t bent = 0;
-  for (const world::Wall& wall : map.rooms()[*index].walls) {
-    bent += wall.sigma && wall.sigma->position > 0.01 ? 1 : 0;
-  }
-  EXPECT_GT(bent, 10U);
-}
 
 // Along a round wall a scan tells two of three coordinates: noise of these is none of the third.
 TEST_F(RoundHallTest, DoesNotLeadDeadReckoningAstray) {
