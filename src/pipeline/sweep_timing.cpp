@@ -36,6 +36,9 @@ constexpr struct {
   // Share of the time between two scans by which the middle may be found wrong: between poses that
   // far apart turns are interpolated, and noise that is averaged there attracts it.
   double coarse = 0.25;
+  // Turn rate that tells the duration of a sweep [rad/s]: with less, what the carrier drives within
+  // a sweep shows as much.
+  double fast = 0.5;
   // Mountings that differ by less are one [m, rad].
   double fixed = 1e-4;
   // Share of the time between two scans by which a correction changes at most.
@@ -111,7 +114,8 @@ void SweepTiming::measure(const scan::Scan& scan, const Anchor& now) {
   const double late = (meanPlace(found->residuals) - 0.5) * duration();
   turns_.push_back({anchor_->stamp, now.stamp, turn, late});
   period_ = elapsed;
-  takeSeam(found->residuals, turn / elapsed);
+  const double rate = turn / elapsed;
+  if (std::abs(rate) > kTiming.fast) takeSeam(found->residuals, rate);
 }
 
 // What is seen at another place of the sweep than before has turned for longer, or for less long,
