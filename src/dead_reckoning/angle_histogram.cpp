@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sightline/geometry/angle.h"
+#include "sightline/geometry/parabola.h"
 
 namespace sightline::dead_reckoning {
 
@@ -32,10 +33,10 @@ std::vector<double> smoothed(const std::vector<double>& counts) {
   return result;
 }
 
-// Peak of a parabola through three values, in steps from the middle one.
+// Peak near a value that neither of its neighbours exceeds, in steps from it.
 double peakOffset(double before, double here, double after) {
-  const double curvature = before - 2.0 * here + after;
-  return curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
+  const auto lowest = geometry::lowestPoint(-before, -here, -after);
+  return lowest ? lowest->offset : 0.0;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sightline/geometry/angle.h"
+#include "sightline/geometry/parabola.h"
 
 namespace sightline::logs {
 
@@ -52,7 +53,7 @@ double meanSquareTurn(const std::vector<ScanStep>& steps) {
   return sum / static_cast<double>(steps.size());
 }
 
-// Offset at the vertex of the parabola through the least cost and its neighbours.
+// Offset at the lowest point of the parabola through the least cost and its neighbours.
 void findOffset(const std::vector<ScanStep>& steps, const Trajectory& odometry,
                 StepComparison& result) {
   const int half = static_cast<int>(kWidestOffset / kOffsetStep);
@@ -60,14 +61,12 @@ void findOffset(const std::vector<ScanStep>& steps, const Trajectory& odometry,
   for (int i = -half; i <= half; ++i) costs.push_back(costAt(steps, odometry, i * kOffsetStep));
   const auto least = std::min_element(costs.begin(), costs.end());
   if (least == costs.begin() || least == std::prev(costs.end())) return;
-  const double before = *std::prev(least);
-  const double after = *std::next(least);
-  const double bend = before - 2.0 * *least + after;
-  if (!std::isfinite(bend) || bend <= 0.0) return;
-  const double index = static_cast<double>(least - costs.begin()) + 0.5 * (before - after) / bend;
+  const auto lowest = geometry::lowestPoint(*std::prev(least), *least, *std::next(least));
+  if (!lowest) return;
+  const double index = static_cast<double>(least - costs.begin()) + lowest->offset;
   // The cost is a mean: of a sum of N, a rise by one residual's variance is one sigma.
   result.offset_sigma =
-      kOffsetStep * std::sqrt(2.0 * *least / (bend * static_cast<double>(steps.size())));
+      kOffsetStep * std::sqrt(2.0 * *least / (lowest->bend * static_cast<double>(steps.size())));
   result.offset = (index - half) * kOffsetStep;
 }
 

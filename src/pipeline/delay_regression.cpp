@@ -33,15 +33,8 @@ double DelayRegression::Sums::rest(double scans_squared) const {
   return spread - slope() * (product - odometry * scans / weight);
 }
 
-DelayRegression::DelayRegression(double widest, double step)
-    : widest_(widest),
-      step_(step),
-      sums_(2 * static_cast<std::size_t>(std::lround(widest / step)) + 1),
-      best_(sums_.size() / 2) {}
-
-double DelayRegression::value(std::size_t i) const {
-  return -widest_ + step_ * static_cast<double>(i);
-}
+DelayRegression::DelayRegression(const EvenValues& delays)
+    : delays_(delays), sums_(delays.size()), best_(sums_.size() / 2) {}
 
 // By the difference from what the best delay so far makes one expect: wheels slip.
 double DelayRegression::weightOf(const std::vector<double>& by_odometry, double by_scans) const {
@@ -60,11 +53,11 @@ void DelayRegression::add(const std::vector<double>& by_odometry, double by_scan
   const double weight = weightOf(by_odometry, by_scans);
   for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].add(weight, by_odometry[i], by_scans);
   scans_squared_ += weight * by_scans * by_scans;
-  const auto worse = [&](const Sums& a, const Sums& b) {
+  const auto is_less = [&](const Sums& a, const Sums& b) {
     return a.rest(scans_squared_) < b.rest(scans_squared_);
   };
-  best_ =
-      static_cast<std::size_t>(std::min_element(sums_.begin(), sums_.end(), worse) - sums_.begin());
+  best_ = static_cast<std::size_t>(std::min_element(sums_.begin(), sums_.end(), is_less) -
+                                   sums_.begin());
 }
 
 void DelayRegression::fade(double kept) {
@@ -77,18 +70,10 @@ void DelayRegression::fade(double kept) {
   scans_squared_ *= kept;
 }
 
-// Vertex of the parabola through the least rest and its neighbours. Where a sum of squares rises by
-// the variance of one of them, a parameter is off by one sigma.
 std::optional<Determined> DelayRegression::delay() const {
-  if (sums_[best_].weight < kDelay.fewest || best_ == 0 || best_ + 1 == sums_.size()) return {};
-  const double before = sums_[best_ - 1].rest(scans_squared_);
-  const double least = sums_[best_].rest(scans_squared_);
-  const double after = sums_[best_ + 1].rest(scans_squared_);
-  const double bend = before - 2.0 * least + after;
-  if (!(bend > 0.0)) return {};
-  const double index = static_cast<double>(best_) + 0.5 * (before - after) / bend;
-  const double variance = least / (sums_[best_].weight - 3.0);
-  return Determined{-widest_ + step_ * index, step_ * std::sqrt(2.0 * variance / bend)};
+  if (sums_[best_].weight < kDelay.fewest) return {};
+  const auto rest = [&](std::size_t i) { return sums_[i].rest(scans_squared_); };
+  return delays_.least(rest, best_, rest(best_) / (sums_[best_].weight - 3.0));
 }
 
 }  // namespace sightline::pipeline

@@ -68,8 +68,8 @@ double meanPlace(const std::vector<TurnResidual>& residuals) {
 }  // namespace
 
 SweepTiming::SweepTiming()
-    : middles_(kTiming.widest_middle, kTiming.step),
-      sweeps_(kTiming.widest_sweep, kTiming.step, kTiming.range_scale),
+    : middles_({kTiming.widest_middle, kTiming.step}),
+      sweeps_({kTiming.widest_sweep, kTiming.step}, kTiming.range_scale),
       path_(std::llround(4e9 * kTiming.widest_middle)) {}
 
 void SweepTiming::skip() {
@@ -142,8 +142,9 @@ void SweepTiming::compareWithOdometry() {
 
 void SweepTiming::compare(const Turn& turn) {
   std::vector<double> turns;
-  for (std::size_t i = 0; i < middles_.size(); ++i) {
-    const auto shift = std::llround(1e9 * (middles_.value(i) + turn.late));
+  const EvenValues& delays = middles_.delays();
+  for (std::size_t i = 0; i < delays.size(); ++i) {
+    const auto shift = std::llround(1e9 * (delays.at(i) + turn.late));
     const auto before = path_.at(turn.before + shift);
     const auto now = path_.at(turn.now + shift);
     if (!before || !now) return;

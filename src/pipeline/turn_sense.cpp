@@ -14,8 +14,7 @@ constexpr struct {
   double turn = 0.12;
   double most_turn = 0.8;
   double most_way = 0.7;
-  // Every so many beams are compared, and so many have to meet others at least.
-  std::size_t every = 3;
+  // Returns that have to meet others at least.
   double fewest = 15.0;
   // Difference of ranges that counts most [m]: what was hidden, or moves.
   double most_off = 0.5;
@@ -28,18 +27,19 @@ constexpr struct {
   double kept = 0.95;
 } kSense;
 
-// Mean difference between ranges that are seen and those that are expected of points [m]; nothing
+// Mean difference between ranges that are seen and those that are expected of returns [m]; nothing
 // where too few of them are in view.
 std::optional<double> meanDifference(const scan::Scan& scan, double sense,
-                                     const std::vector<Eigen::Vector2d>& points,
+                                     const std::vector<OrderedReturn>& returns,
                                      const geometry::Pose2& T_now_before) {
   const scan::ScanGeometry& geometry = *scan.geometry();
   const double first = geometry.angles().front();
   const double increment = geometry.angleIncrement();
   double sum = 0.0;
   double count = 0.0;
-  for (const Eigen::Vector2d& point : points) {
-    const Eigen::Vector2d place = T_now_before * Eigen::Vector2d(point.x(), sense * point.y());
+  for (const OrderedReturn& before : returns) {
+    const Eigen::Vector2d point(before.point.x(), sense * before.point.y());
+    const Eigen::Vector2d place = T_now_before * point;
     const double angle = std::atan2(sense * place.y(), place.x());
     double turns = (angle - first) / increment;
     const double circle = 2.0 * geometry::kPi / std::abs(increment);
@@ -51,16 +51,6 @@ std::optional<double> meanDifference(const scan::Scan& scan, double sense,
   }
   if (count < kSense.fewest) return std::nullopt;
   return sum / count;
-}
-
-std::vector<Eigen::Vector2d> returnsOf(const scan::Scan& scan) {
-  std::vector<Eigen::Vector2d> returns;
-  for (std::size_t i = 0; i < scan.beams(); i += kSense.every) {
-    if (!scan.isValid(i)) continue;
-    returns.emplace_back(scan.ranges()[i] * scan.geometry()->cosines()[i],
-                         scan.ranges()[i] * scan.geometry()->sines()[i]);
-  }
-  return returns;
 }
 
 }  // namespace
@@ -75,7 +65,7 @@ void TurnSense::add(const scan::Scan& scan, const geometry::Pose2& T_odom_base,
   if (anchor_ && is_near && std::abs(step.theta()) < kSense.most_turn) {
     vote(scan, T_base_sensor.inverse() * step * T_base_sensor);
   }
-  anchor_ = Anchor{T_odom_base, returnsOf(scan)};
+  anchor_ = Anchor{T_odom_base, orderedReturns(scan)};
 }
 
 void TurnSense::vote(const scan::Scan& scan, const geometry::Pose2& T_before_now) {

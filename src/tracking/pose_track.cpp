@@ -92,11 +92,9 @@ void PoseTrack::predict(const TrackingContext& context, const TrackerInput& inpu
 }
 
 Explanation PoseTrack::explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
-                                   const TrackingContext& context, const TrackerInput& input,
-                                   const Sweep& sweep) const {
-  using Lines = WallFinder::Lines;
+                                   WallFinder::Lines lines, const TrackingContext& context,
+                                   const TrackerInput& input, const Sweep& sweep) const {
   const WallFinder finder(context.config);
-  const Lines lines = &looked_from == &filter_ ? Lines::kAll : Lines::kHeaviest;
   std::optional<Explanation> best;
   const auto walls = wallsInSight(context, memory_.room());
   for (auto& fits : finder.find(looked_from, context.map, walls, sweep, lines)) {
@@ -183,12 +181,14 @@ bool PoseTrack::isMotionDoubted(const Explanation& explanation) const {
 }
 
 Explanation PoseTrack::explain(const TrackingContext& context, const TrackerInput& input) const {
+  using Lines = WallFinder::Lines;
   using Motion = Explanation::Motion;
   const Sweep sweep = readSweep(input.scan, input.T_base_sensor);
-  const auto lookFrom = [&](const PoseFilter& prior, const PoseFilter& looked_from) {
-    return explainFrom(prior, looked_from, context, input, sweep);
+  const auto lookFrom = [&](const PoseFilter& prior, const PoseFilter& looked_from,
+                            Lines lines = Lines::kHeaviest) {
+    return explainFrom(prior, looked_from, lines, context, input, sweep);
   };
-  Explanation best = lookFrom(filter_, filter_);
+  Explanation best = lookFrom(filter_, filter_, Lines::kAll);
   const Explanation taken = best;
   if (coasting_ && distrusted_at_) {
     best.log_posterior += kPriors.distrusted;

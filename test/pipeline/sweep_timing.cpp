@@ -36,8 +36,9 @@ struct TimedDrive {
 struct Found {
   SweepTiming timing;
   std::int64_t shift = 0;
-  double sweep = 0.0;  // of the last scan as it was corrected
-  int first = -1;      // scan with which something was corrected
+  double sweep = 0.0;       // of the last scan as it was corrected
+  int first = -1;           // scan with which something was corrected
+  bool is_in_order = true;  // each scan's odometry is from after the one before
 };
 
 // A robot that turns on the spot, with rates that change.
@@ -54,6 +55,7 @@ Found drive(const TimedDrive& drive) {
     return drive.turn_rate * (time - std::cos(drive.change * time) / drive.change);
   };
   double drift = 0.0;
+  std::int64_t before = 0;
   for (int i = 0; i < drive.scans; ++i) {
     const double time = 10.0 + 0.1 * i;
     const auto poseAt = [&](double t) { return Pose2(0.2, -0.3, headingAt(t)); };
@@ -70,6 +72,8 @@ Found drive(const TimedDrive& drive) {
     found.shift = found.timing.correct(scan);
     found.sweep = scan.duration();
     if (found.first < 0 && !found.timing.fault().empty()) found.first = i;
+    found.is_in_order &= scan.stamp + found.shift > before;
+    before = scan.stamp + found.shift;
     drift += 0.1 * drive.odometry_noise * normal(random);
     Pose2 T_odom_base = poseAt(1e-9 * static_cast<double>(scan.stamp + found.shift));
     T_odom_base = Pose2(T_odom_base.translation(), drive.turn_scale * T_odom_base.theta() + drift);
@@ -127,18 +131,13 @@ TEST(SweepTiming, ATurnThatNeverChangesTellsTheSweepAlone) {
   EXPECT_NEAR(drive(steady).sweep, 0.1, 0.01);
 }
 
-TEST(SweepTiming, StampsAreMovedByAndBySoThatTheirOrderStays) {
-  SweepTiming timing;
-  // As above; each stamp is later than the one before.
-  std::int64_t before = 0;
-  TimedDrive wrong;
-  wrong.late = 0.25;
-  for (int scans = 20; scans <= 100; scans += 20) {
-    wrong.scans = scans;
+TEST(SweepTiming, OdometryIsShiftedByAndBySoThatItsOrderStays) {
+  for (const double late : {0.25, -0.25}) {
+    TimedDrive wrong;
+    wrong.late = late;
     const Found found = drive(wrong);
-    const std::int64_t stamp = std::llround(1e8 * scans) + found.shift;
-    EXPECT_GT(stamp, before);
-    before = stamp;
+    EXPECT_TRUE(found.is_in_order) << late;
+    EXPECT_NEAR(1e-9 * static_cast<double>(found.shift), -late, 0.02);
   }
 }
 

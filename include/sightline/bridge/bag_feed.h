@@ -60,7 +60,7 @@ class BagFeed {
   std::size_t breaks() const;
   /// Times that the clock was set.
   std::size_t restarts() const { return restarts_; }
-  /// Scanners whose scans turn against the odometry, each with what is said of it.
+  /// What turns show to be wrong with scanners' beams and times, one text a scanner.
   std::vector<std::string> faultsOfTurns() const;
   /// Faults that were mended in scans, each once.
   std::vector<std::string> mended() const;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "sightline/pipeline/cost_profile.h"
+#include "sightline/pipeline/even_values.h"
 
 namespace sightline::pipeline {
 
@@ -14,12 +14,10 @@ namespace sightline::pipeline {
 /// counts less and less.
 class DelayRegression {
  public:
-  /// @param widest  delays from minus this to this [s]
-  /// @param step    between two delays [s]
-  DelayRegression(double widest, double step);
+  /// @param delays  that are tried [s]
+  explicit DelayRegression(const EvenValues& delays);
 
-  std::size_t size() const { return sums_.size(); }
-  double value(std::size_t i) const;
+  const EvenValues& delays() const { return delays_; }
 
   /// Takes a turn by the scans, and the one by the odometry at each of the delays [rad].
   void add(const std::vector<double>& by_odometry, double by_scans);
@@ -38,8 +36,7 @@ class DelayRegression {
   };
   double weightOf(const std::vector<double>& by_odometry, double by_scans) const;
 
-  double widest_;
-  double step_;
+  EvenValues delays_;
   std::vector<Sums> sums_;
   double scans_squared_ = 0.0;
   std::size_t best_;

@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "sightline/geometry/pose2.h"
+#include "sightline/pipeline/profile_turn.h"
 #include "sightline/scan/scan.h"
 
 namespace sightline::pipeline {
@@ -30,7 +29,7 @@ class TurnSense {
   enum Sense : std::size_t { kSame, kOpposite };
   struct Anchor {
     geometry::Pose2 T_odom_base;
-    std::vector<Eigen::Vector2d> returns;  // of every few beams, in the sensor [m]
+    std::vector<OrderedReturn> returns;
   };
   void vote(const scan::Scan& scan, const geometry::Pose2& T_before_now);
 

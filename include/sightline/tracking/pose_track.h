@@ -5,6 +5,7 @@
 #include "sightline/tracking/explanation.h"
 #include "sightline/tracking/pose_filter.h"
 #include "sightline/tracking/tracking_context.h"
+#include "sightline/tracking/wall_finder.h"
 
 namespace sightline::tracking {
 
@@ -44,8 +45,8 @@ class PoseTrack {
   // lines may be a wall by what is predicted, the choice that explains the scan best; a motion that
   // nobody predicted is as good as its heaviest lines.
   Explanation explainFrom(const PoseFilter& prior, const PoseFilter& looked_from,
-                          const TrackingContext& context, const TrackerInput& input,
-                          const Sweep& sweep) const;
+                          WallFinder::Lines lines, const TrackingContext& context,
+                          const TrackerInput& input, const Sweep& sweep) const;
   Explanation explainBy(std::vector<WallFit> fits, const PoseFilter& prior,
                         const TrackingContext& context, const TrackerInput& input,
                         const Sweep& sweep) const;
