@@ -40,6 +40,7 @@ Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor) {
   const double duration = scan.duration();
   const bool jitters = scan.motion_noise.jitter != 0.0;
   Sweep sweep;
+  sweep.reach = {scan.geometry()->rangeMin(), scan.geometry()->rangeMax()};
   readMotionNoise(scan, T_base_sensor, sweep);
   sweep.points.reserve(scan.beams());
   for (std::size_t i = 0; i < scan.beams(); ++i) {

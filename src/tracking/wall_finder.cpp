@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "sightline/tracking/motion_response.h"
+#include "sightline/tracking/reach.h"
 #include "sightline/tracking/rounded_ranges.h"
 
 namespace sightline::tracking {
@@ -173,7 +174,7 @@ void WallFinder::addMapUncertainty(const WallConfig& known,
 }
 
 void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const Pose2& T_base_map,
-                         const Eigen::Matrix3d& walk, WallFit& result) const {
+                         const Sweep& sweep, WallFit& result) const {
   // Least squares over the beams near the line, which is moved to fit them until they stay the
   // same.
   const WallConfig known = wall_.of(wall);
@@ -188,13 +189,14 @@ void WallFinder::fitWall(const GatedWall& gated, const world::Wall& wall, const 
     if (!refined) return;
     fit = *refined;
     line = fit.line;
-    auto next = nearLine(gated.points, line, gate_.sigmas, known.position_sigma);
+    auto next = withinReach(nearLine(gated.points, line, gate_.sigmas, known.position_sigma), line,
+                            sweep.reach, gate_.sigmas);
     if (next == near) break;
     near = std::move(next);
   }
   result.refusal = refusalOf(wall_, near, line);
   if (result.refusal != WallRefusal::kNone) return;
-  result.fit = describe(fit, near, walk);
+  result.fit = describe(fit, near, sweep.motion_noise.walk);
   addMapUncertainty(known, near, result.fit->line);
 }
 
@@ -210,8 +212,7 @@ std::vector<WallFit> WallFinder::fitFrom(const PoseFilter& refined, const Questi
     fits[i].wall = indices[i].wall;
     fits[i].gate = question.gated[i].gate.size();
     fits[i].beams_in_gate = question.gated[i].points.size();
-    fitWall(second[i], *question.walls[i], refined.pose().mean.inverse(), sweep.motion_noise.walk,
-            fits[i]);
+    fitWall(second[i], *question.walls[i], refined.pose().mean.inverse(), sweep, fits[i]);
   }
   return fits;
 }

@@ -15,10 +15,11 @@ namespace sightline::test {
 /// Rooms whose walls are the world, and a scanner in them that takes all beams at once.
 class SimulatedRooms {
  public:
-  explicit SimulatedRooms(const std::string& rooms, unsigned seed = 1)
+  explicit SimulatedRooms(const std::string& rooms, unsigned seed = 1,
+                          const simulation::ScannerProfile& scanner = profile())
       : map(config::Node::parse(rooms, "rooms")),
         world(world::World::of(map)),
-        scanner_(profile(), {}, seed) {}
+        scanner_(scanner, {}, seed) {}
 
   scan::Scan look(const geometry::Pose2& T_map_sensor, std::int64_t stamp) {
     return scanner_.sweep(world, stamp, [&](std::int64_t) { return T_map_sensor; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,9 +22,16 @@ struct BeamPoint {
   double sweep_ratio = 0.0;  ///< time since the first beam over that of the last, [0, 1]
 };
 
+/// Ranges that a sensor can tell [m].
+struct Reach {
+  double range_min = 0.0;
+  double range_max = std::numeric_limits<double>::infinity();
+};
+
 /// The valid beams of a scan, and what is not known of the motion from the first beam to the last.
 struct Sweep {
   std::vector<BeamPoint> points;
+  Reach reach;
   SweepNoise motion_noise;  ///< zero where the motion is known
 };
 

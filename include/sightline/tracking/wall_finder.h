@@ -58,7 +58,7 @@ class WallFinder {
                                const std::vector<world::WallIndex>& indices,
                                const Sweep& sweep) const;
   void fitWall(const GatedWall& gated, const world::Wall& wall, const geometry::Pose2& T_base_map,
-               const Eigen::Matrix3d& walk, WallFit& result) const;
+               const Sweep& sweep, WallFit& result) const;
   static void addMapUncertainty(const WallConfig& known,
                                 const std::vector<const BeamPoint*>& points,
                                 geometry::PolarLine& line);
