@@ -110,7 +110,7 @@ Explanation PoseTrack::explainBy(std::vector<WallFit> fits, const PoseFilter& pr
   Explanation explanation{prior, {}, {}};
   for (WallFit& fit : fits) explanation.walls.emplace_back(std::move(fit));
   explanation.filter.beginSweep(sweep.motion_noise);
-  applyWalls(context, explanation.filter, explanation.walls);
+  applyWalls(context, *input.scan.geometry(), explanation.filter, explanation.walls);
   applyJambs(context, memory_.room(), sweep, explanation.filter);
   judge(context, input, explanation);
   return explanation;

@@ -25,7 +25,8 @@ struct Explanation {
 /// Walls of a room, and of those behind its doors.
 std::vector<world::WallIndex> wallsInSight(const TrackingContext& context, std::size_t room);
 /// Corrects a pose by the walls that were found, the best-seen first; says which were refused.
-void applyWalls(const TrackingContext& context, PoseFilter& filter, std::vector<WallUpdate>& walls);
+void applyWalls(const TrackingContext& context, const scan::ScanGeometry& geometry,
+                PoseFilter& filter, std::vector<WallUpdate>& walls);
 /// Corrects it by the jambs of a room's doors, after the walls have told how the robot stands.
 void applyJambs(const TrackingContext& context, std::size_t room, const Sweep& sweep,
                 PoseFilter& filter);
