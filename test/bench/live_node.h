@@ -74,6 +74,13 @@ class Process {
   pid_t pid_ = -1;
 };
 
+/// Load of a process [% of a core] over a time [s].
+inline double loadOf(const Process& process, double seconds) {
+  const double before = process.cpuSeconds();
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  return 100.0 * (process.cpuSeconds() - before) / seconds;
+}
+
 inline int freePort() {
   const int handle = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};

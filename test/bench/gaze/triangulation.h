@@ -88,10 +88,10 @@ inline PoseSpread spreadOf(const GazePlace& place, const GazeWay& way, std::uint
 
 /// Certainty of a sensor that looks everywhere at once that its head can turn to, where nothing
 /// hides a wall and the scale of the wheels is known: no gaze can do better on this way.
-inline double boundOf(const GazePlace& place) {
+inline double boundOf(const GazePlace& place, gaze::GazeConfig config,
+                      const motion::OdometryNoise& wheels) {
   const auto map = world::RoomMap::readFile(std::string(SIGHTLINE_SOURCE_DIR "/config/rooms/") +
                                             place.name + ".yaml");
-  gaze::GazeConfig config;
   const double widening = 1.0 + config.head.upper / config.field.half_width;
   config.field.half_width *= widening;
   config.field.beams = static_cast<int>(config.field.beams * widening);
@@ -108,8 +108,7 @@ inline double boundOf(const GazePlace& place) {
     carrier.move();
     if (carrier.time() % 100'000'000 != 0) continue;
     const geometry::Pose2 T_map_base = carrier.robot().T_map_base();
-    at.uncertainty.predict(at.T_map_base, geometry::between(at.T_map_base, T_map_base),
-                           simulation::RobotConfig{}.odometry);
+    at.uncertainty.predict(at.T_map_base, geometry::between(at.T_map_base, T_map_base), wheels);
     at.T_map_base = T_map_base;
     for (const auto& wall : everywhere.looksAt(at, 0.0, map, gaze::WallVisibility(1.0))) {
       at.uncertainty.take(wall, T_map_base.translation(), 1.0);
@@ -145,7 +144,7 @@ inline void triangulation(std::uint64_t seeds) {
       print(std::string("gaze.triangulation.") + place.name + ".error_ratio",
             sum.error() / best_error, "1");
       print(std::string("gaze.triangulation.") + place.name + ".bound_ratio",
-            boundOf(place) / best_sigma, "1");
+            boundOf(place, {}, simulation::RobotConfig{}.odometry) / best_sigma, "1");
     }
   }
 }

@@ -33,12 +33,6 @@ inline void setRobotParameters() {
   ros::param::set("/room_tracker/initial_pose", std::vector<double>{-2.2, 4.6, 0.2});
 }
 
-inline double loadOf(const Process& process, double seconds) {
-  const double before = process.cpuSeconds();
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-  return 100.0 * (process.cpuSeconds() - before) / seconds;
-}
-
 /// Prints rooms.node.{cpu_percent,peak_mb}, and idle_percent: of a node without any input.
 inline void printNode() {
   const Master master;
