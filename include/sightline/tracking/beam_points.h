@@ -21,6 +21,13 @@ struct BeamPoint {
   double sweep_ratio = 0.0;  ///< time since the first beam over that of the last, [0, 1]
 };
 
+/// Ends of beams, coordinate by coordinate, for what looks at all of them.
+struct BeamEnds {
+  std::vector<double> x, y;  ///< in the base frame [m]
+
+  explicit BeamEnds(const std::vector<BeamPoint>& points);
+};
+
 /// The valid beams of a scan, and what is not known of the motion from the first beam to the last.
 struct Sweep {
   std::vector<BeamPoint> points;
