@@ -19,9 +19,9 @@ namespace sightline::tracking {
 /// has turned by 180° or driven 2 m as well: what the map lacks is no noise, so that no ratio of
 /// evidence is safe by itself. Until the first claim there are no updates, and the most probable
 /// pose is the published one; from then on another one takes its place only where the scan speaks
-/// against it and the other is certain: within 0.75 m, where the robot may have been pushed or
-/// turned, at once; elsewhere after the other has explained what was seen for as long as a claim
-/// takes. After a jump the updates are flagged.
+/// against it and the other is certain: within 0.75 m, now or where nothing was in doubt last, at
+/// once, as the robot may have been pushed or turned; elsewhere after the other has explained what
+/// was seen for as long as a claim takes. After a jump the updates are flagged.
 class RivalTracks {
  public:
   /// Anywhere in the map.
