@@ -30,20 +30,20 @@ struct NormalEquations {
 };
 
 // Residual e = n·p − ρ over its standard deviation s(φ) = sqrt(nᵀ C n); s turns with the line, so
-// it is differentiated too.
+// it is differentiated too. All sums are of squares of 1 / s: no root is needed.
 NormalEquations linearise(const std::vector<NoisyPoint>& points, const Eigen::Vector2d& line) {
   const Eigen::Vector2d normal(std::cos(line[1]), std::sin(line[1]));
   const Eigen::Vector2d along(-normal.y(), normal.x());
   NormalEquations equations;
   for (const NoisyPoint& point : points) {
-    const double variance = normal.dot(point.covariance * normal);
-    const double weight = 1.0 / std::sqrt(variance);
-    const double residual = (normal.dot(point.position) - line[0]) * weight;
-    const double turn = along.dot(point.covariance * normal) / variance;
-    const Eigen::Vector2d jacobian(-weight, along.dot(point.position) * weight - residual * turn);
-    equations.information += jacobian * jacobian.transpose();
-    equations.gradient += jacobian * residual;
-    equations.chi_square += residual * residual;
+    const Eigen::Vector2d spread = point.covariance * normal;
+    const double weight = 1.0 / normal.dot(spread);
+    const double residual = normal.dot(point.position) - line[0];
+    const double turn = along.dot(spread) * weight;
+    const Eigen::Vector2d jacobian(-1.0, along.dot(point.position) - residual * turn);
+    equations.information += weight * jacobian * jacobian.transpose();
+    equations.gradient += weight * residual * jacobian;
+    equations.chi_square += weight * residual * residual;
   }
   return equations;
 }

@@ -49,6 +49,12 @@ void Scan::setRangeVariances(std::vector<double> variances) {
 void Scan::setSensorMotion(std::vector<geometry::Pose2> motion) {
   if (!motion.empty()) requireLength("poses of the sensor", motion.size());
   sensor_motion_ = std::move(motion);
+  directions_.clear();
+  directions_.reserve(sensor_motion_.size());
+  for (std::size_t i = 0; i < sensor_motion_.size(); ++i) {
+    const Eigen::Vector2d own(geometry_->cosines()[i], geometry_->sines()[i]);
+    directions_.emplace_back(sensor_motion_[i].rotation() * own);
+  }
 }
 
 void Scan::setIntensities(std::vector<double> intensities) {
@@ -57,14 +63,13 @@ void Scan::setIntensities(std::vector<double> intensities) {
 }
 
 Eigen::Vector2d Scan::direction(std::size_t beam) const {
-  const Eigen::Vector2d own(geometry_->cosines()[beam], geometry_->sines()[beam]);
-  return sensor_motion_.empty() ? own : sensor_motion_[beam].rotation() * own;
+  if (!directions_.empty()) return directions_[beam];
+  return {geometry_->cosines()[beam], geometry_->sines()[beam]};
 }
 
 Eigen::Vector2d Scan::point(std::size_t beam) const {
-  const Eigen::Vector2d own(ranges_[beam] * geometry_->cosines()[beam],
-                            ranges_[beam] * geometry_->sines()[beam]);
-  return sensor_motion_.empty() ? own : sensor_motion_[beam] * own;
+  const Eigen::Vector2d own = ranges_[beam] * direction(beam);
+  return sensor_motion_.empty() ? own : own + sensor_motion_[beam].translation();
 }
 
 Eigen::Matrix2d Scan::covariance(std::size_t beam) const {

@@ -33,6 +33,15 @@ void readMotionNoise(const scan::Scan& scan, const Pose2& T_base_sensor, Sweep& 
 
 }  // namespace
 
+BeamEnds::BeamEnds(const std::vector<BeamPoint>& points) {
+  x.reserve(points.size());
+  y.reserve(points.size());
+  for (const BeamPoint& point : points) {
+    x.push_back(point.position.x());
+    y.push_back(point.position.y());
+  }
+}
+
 Sweep readSweep(const scan::Scan& scan, const Pose2& T_base_sensor) {
   const Eigen::Matrix2d rotation = T_base_sensor.rotation();
   const Eigen::Vector2d mounting = T_base_sensor.translation();

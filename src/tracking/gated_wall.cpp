@@ -30,11 +30,16 @@ std::vector<GatedWall> gateWalls(const GateConfig& config,
   std::vector<GatedWall> gated;
   gated.reserve(walls.size());
   const double sigma = medianSigma(points);
+  const BeamEnds ends(points);
+  std::vector<double> excesses;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     gated.push_back({ValidationGate(config, *walls[i], wall_sigmas[i], T_map_base, sigma), {}});
     if (walls[i]->spans.empty()) continue;
-    for (const BeamPoint& point : points) {
-      if (gated.back().gate.contains(point)) gated.back().points.push_back(&point);
+    const ValidationGate& gate = gated.back().gate;
+    gate.excesses(ends, excesses);
+    for (std::size_t beam = 0; beam < points.size(); ++beam) {
+      if (excesses[beam] > 0.0 || !gate.contains(points[beam])) continue;
+      gated.back().points.push_back(&points[beam]);
     }
   }
   return gated;

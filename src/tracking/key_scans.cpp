@@ -30,12 +30,14 @@ bool isAnotherView(const Pose2& T_odom_base, const Pose2& T_odom_other) {
 }
 
 bool KeyScans::isNew(const TrackerInput& input) const {
-  return scans_.empty() || isAnotherView(scans_.back().T_odom_base, input.T_odom_base);
+  return scans_.empty() || isAnotherView(scans_.back().T_odom_view, input.T_odom_base);
 }
 
 void KeyScans::add(const TrackerInput& input) {
-  if (!scans_.empty() && !isNew(input)) scans_.pop_back();
-  scans_.push_back({input.scan, input.T_odom_base, input.T_base_sensor});
+  const bool is_new = isNew(input);
+  const Pose2 T_odom_view = is_new ? input.T_odom_base : scans_.back().T_odom_view;
+  if (!is_new) scans_.pop_back();
+  scans_.push_back({input.scan, input.T_odom_base, input.T_base_sensor, T_odom_view});
   if (scans_.size() > kKeys.most) scans_.pop_front();
 }
 

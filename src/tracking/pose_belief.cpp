@@ -33,16 +33,16 @@ constexpr struct {
   double least_found = 2.0;
 } kBelief;
 
-bool goesThroughWalls(const ScanAgreement& agreement) {
-  return static_cast<double>(agreement.beyond) >=
-         kBelief.most_through * static_cast<double>(agreement.judged());
-}
-
 double saidBy(const ScanAgreement& agreement, const scan::ScanGeometry& geometry) {
   return std::clamp(logOdds(agreement, geometry), kBelief.most_against, kBelief.most_for);
 }
 
 }  // namespace
+
+bool goesThroughWalls(const ScanAgreement& agreement) {
+  return static_cast<double>(agreement.beyond) >=
+         kBelief.most_through * static_cast<double>(agreement.judged());
+}
 
 void PoseBelief::take(const TrackerUpdate& update, const scan::ScanGeometry& geometry,
                       const geometry::Pose2& T_odom_base) {

@@ -147,7 +147,10 @@ geometry::UncertainPose2 PoseFilter::assumedPose() const {
 
 geometry::UncertainPose2 PoseFilter::pose() const {
   geometry::UncertainPose2 pose = assumedPose();
-  for (const WallShare& wall : walls_) pose.covariance += wall.covariance().topLeftCorner<3, 3>();
+  for (const WallShare& wall : walls_) {
+    const auto by_wall = wall.of_states.topRows<3>();
+    pose.covariance += by_wall.lazyProduct(wall.prior).eval().lazyProduct(by_wall.transpose());
+  }
   return pose;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sightline/tracking/pose_belief.h"
 #include "sightline/tracking/wall_finder.h"
 
 namespace sightline::tracking {
@@ -60,6 +61,11 @@ void keepBetter(Explanation& best, Explanation other, double log_prior,
   other.log_posterior += log_prior;
   other.motion = motion;
   if (other.log_posterior > best.log_posterior) best = std::move(other);
+}
+
+// Whether few beams on walls speak for it.
+bool isWeak(const Explanation& explanation, const TrackerInput& input) {
+  return supportOf(explanation.agreement, *input.scan.geometry()) < kPriors.least_support;
 }
 
 // Reports the gates that the prediction leaves open.
@@ -210,8 +216,26 @@ Explanation PoseTrack::explain(const TrackingContext& context, const TrackerInpu
   PoseFilter slipped = coasting_ && distrusted_at_ ? *coasting_ : filter_;
   slipped.inflate(context.config.slip.position_sigma, context.config.slip.heading_sigma);
   const double log_prior = distrusted_at_ ? kPriors.slip_again : kPriors.slip;
-  keepBetter(best, lookFrom(slipped, slipped), log_prior, Motion::kSlip);
-  return best;
+  return slippedOr(std::move(best), lookFrom(slipped, slipped), log_prior, input);
+}
+
+// The better one. A slip by which more beams go through walls moves no pose, nor does one that few
+// walls speak for, not all of them found as lines, while no beams go through walls without it:
+// things that stand along walls look like one.
+Explanation PoseTrack::slippedOr(Explanation best, Explanation slipped, double log_prior,
+                                 const TrackerInput& input) {
+  if (slipped.log_posterior + log_prior <= best.log_posterior) return best;
+  const ScanAgreement& agreement = slipped.agreement;
+  const bool is_worse = goesThroughWalls(agreement) && agreement.beyond > best.agreement.beyond;
+  const bool is_weak = isWeak(slipped, input) && unusedShare(slipped) > kPriors.most_unused &&
+                       !goesThroughWalls(best.agreement);
+  if (is_worse || is_weak) {
+    best.may_have_slipped = true;
+    return best;
+  }
+  slipped.log_posterior += log_prior;
+  slipped.motion = Explanation::Motion::kSlip;
+  return slipped;
 }
 
 // Wheels that have stopped reporting are likely to be silent at the next scan, too.
@@ -249,8 +273,8 @@ TrackerUpdate PoseTrack::commit(const TrackingContext& context, const TrackerInp
   update.odometry_scale = filter_.scale();
   update.odometry_scale_sigma = filter_.scaleSigma();
   update.covariance_valid = update.state != TrackerState::kLost;
-  update.jumped = explanation.motion == Explanation::Motion::kSlip &&
-                  supportOf(explanation.agreement, *input.scan.geometry()) < kPriors.least_support;
+  const bool is_slip = explanation.motion == Explanation::Motion::kSlip;
+  update.jumped = explanation.may_have_slipped || (is_slip && isWeak(explanation, input));
   update.walls = std::move(explanation.walls);
   if (memory_.changeRoom(context.map, pose().mean.translation())) {
     inflate(context.config.threshold_position_sigma, context.config.threshold_heading_sigma);

@@ -40,62 +40,101 @@ Axis distancesOf(const GatedWall& wall, const HoughConfig& config) {
   return axis;
 }
 
-std::vector<double> vote(const GatedWall& wall, double turn, const Axis& axis) {
-  const geometry::PolarLine& predicted = wall.gate.predicted();
-  const Eigen::Vector2d normal(std::cos(predicted.phi + turn), std::sin(predicted.phi + turn));
-  std::vector<double> accumulator(static_cast<std::size_t>(2 * axis.half + 1), 0.0);
-  for (const BeamPoint* point : wall.points) {
-    const double bin = (normal.dot(point->position) - predicted.rho) / axis.bin + axis.half;
-    const double floor = std::floor(bin);
-    if (!(floor >= 0.0 && floor + 1.0 <= 2.0 * axis.half)) continue;
-    const auto lower = static_cast<std::size_t>(floor);
-    // Shared between the two nearest bins, so that a peak on the edge of a bin is not halved.
-    const double upper_share = bin - floor;
-    accumulator[lower] += point->range * (1.0 - upper_share);
-    accumulator[lower + 1] += point->range * upper_share;
+// The beams of a wall, and their votes at one turn after another.
+class Ballot {
+ public:
+  Ballot(const GatedWall& wall, const HoughConfig& config, double penalty)
+      : predicted_(wall.gate.predicted()), axis_(distancesOf(wall, config)), config_(config) {
+    for (const BeamPoint* point : wall.points) {
+      x_.push_back(point->position.x());
+      y_.push_back(point->position.y());
+      ranges_.push_back(point->range);
+    }
+    places_.resize(ranges_.size());
+    for (int i = -axis_.half; i <= axis_.half; ++i) {
+      shares_.push_back(1.0 - penalty * squared(static_cast<double>(i) / axis_.half));
+    }
   }
-  return accumulator;
-}
 
-// The heaviest bin at a turn, where weights fall by `penalty` towards the edge of the gate.
-std::optional<WallPeak> bestPeak(const GatedWall& wall, double turn, const HoughConfig& config,
-                                 double penalty) {
-  if (wall.points.empty()) return std::nullopt;
-  const Axis axis = distancesOf(wall, config);
-  const std::vector<double> votes = vote(wall, turn, axis);
-  std::optional<WallPeak> best;
-  double best_score = 0.0;
-  for (int i = -axis.half; i <= axis.half; ++i) {
-    const double weight = votes[static_cast<std::size_t>(i + axis.half)];
-    const double score = weight * (1.0 - penalty * squared(static_cast<double>(i) / axis.half));
-    if (score <= best_score) continue;
-    best_score = score;
-    best = WallPeak{turn, axis.at(i), weight, config.angle_bin, axis.bin};
+  bool isEmpty() const { return ranges_.empty(); }
+  const Axis& axis() const { return axis_; }
+
+  // Weight of each bin at a turn.
+  const std::vector<double>& vote(double turn) {
+    findPlaces(turn);
+    accumulator_.assign(static_cast<std::size_t>(2 * axis_.half + 1), 0.0);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const double place = places_[i];
+      if (!(place >= 0.0 && place < 2.0 * axis_.half)) continue;
+      const auto lower = static_cast<std::size_t>(place);
+      // Shared between the two nearest bins, so that a peak on the edge of a bin is not halved.
+      const double upper_share = place - static_cast<double>(lower);
+      accumulator_[lower] += ranges_[i] * (1.0 - upper_share);
+      accumulator_[lower + 1] += ranges_[i] * upper_share;
+    }
+    return accumulator_;
   }
-  return best;
-}
+
+  // The bin at a turn that is heaviest by what it keeps of its weight; nothing without votes.
+  std::optional<std::size_t> heaviest(double turn) {
+    vote(turn);
+    std::optional<std::size_t> best;
+    double best_score = 0.0;
+    for (std::size_t i = 0; i < accumulator_.size(); ++i) {
+      const double score = accumulator_[i] * shares_[i];
+      if (score <= best_score) continue;
+      best_score = score;
+      best = i;
+    }
+    return best;
+  }
+  double weightOf(std::size_t bin) const { return accumulator_[bin]; }
+  double shareOf(std::size_t bin) const { return shares_[bin]; }
+  WallPeak peak(double turn, std::size_t bin, double weight) const {
+    return {turn, axis_.at(static_cast<int>(bin) - axis_.half), weight, config_.angle_bin,
+            axis_.bin};
+  }
+
+ private:
+  // In bins from the first one.
+  void findPlaces(double turn) {
+    const double normal_x = std::cos(predicted_.phi + turn);
+    const double normal_y = std::sin(predicted_.phi + turn);
+    const double rho = predicted_.rho, bin = axis_.bin, half = axis_.half;
+    const double* x = x_.data();
+    const double* y = y_.data();
+    double* places = places_.data();
+    const std::size_t count = places_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      places[i] = (normal_x * x[i] + normal_y * y[i] - rho) / bin + half;
+    }
+  }
+
+  geometry::PolarLine predicted_;
+  Axis axis_;
+  HoughConfig config_;
+  std::vector<double> x_, y_, ranges_;  // of the beams
+  std::vector<double> places_;          // of their votes
+  std::vector<double> shares_;          // of its weight that a bin keeps
+  std::vector<double> accumulator_;
+};
 
 // The peaks of a wall at a turn, by weight, those at the edge of the gate less.
-std::vector<WallPeak> peaksAt(const GatedWall& wall, double turn, const HoughConfig& config) {
+std::vector<WallPeak> peaksAt(Ballot& ballot, double turn) {
   std::vector<WallPeak> peaks;
-  if (wall.points.empty()) return peaks;
-  const Axis axis = distancesOf(wall, config);
-  std::vector<double> scores = vote(wall, turn, axis);
-  const std::vector<double> votes = scores;
-  for (int i = -axis.half; i <= axis.half; ++i) {
-    scores[static_cast<std::size_t>(i + axis.half)] *=
-        1.0 - kHough.distance_penalty * squared(static_cast<double>(i) / axis.half);
-  }
+  if (ballot.isEmpty()) return peaks;
+  std::vector<double> scores = ballot.vote(turn);
+  for (std::size_t i = 0; i < scores.size(); ++i) scores[i] *= ballot.shareOf(i);
   double least = 0.0;
   while (peaks.size() < kHough.most_peaks) {
     const auto best = std::max_element(scores.begin(), scores.end());
     if (*best <= least) break;
     least = std::max(least, kHough.least_share * *best);
     const auto at = static_cast<int>(best - scores.begin());
-    peaks.push_back({turn, axis.at(at - axis.half), votes[static_cast<std::size_t>(at)],
-                     config.angle_bin, axis.bin});
+    const auto bin = static_cast<std::size_t>(at);
+    peaks.push_back(ballot.peak(turn, bin, ballot.weightOf(bin)));
     const auto from = scores.begin() + std::max(0, at - kBinsApart + 1);
-    const auto to = scores.begin() + std::min(2 * axis.half + 1, at + kBinsApart);
+    const auto to = scores.begin() + std::min(static_cast<int>(scores.size()), at + kBinsApart);
     std::fill(from, to, 0.0);
   }
   return peaks;
@@ -107,13 +146,16 @@ HoughPeaks RangeWeightedHough::transform(const std::vector<GatedWall>& walls) co
   double reach = 0.0;
   for (const GatedWall& wall : walls) reach = std::max(reach, wall.gate.size().angle);
   const Axis turns(reach, config_.angle_bin);
+  std::vector<Ballot> ballots;
+  ballots.reserve(walls.size());
+  for (const GatedWall& wall : walls) ballots.emplace_back(wall, config_, kHough.distance_penalty);
   HoughPeaks best;
   double best_score = 0.0;
   for (int i = -turns.half; i <= turns.half; ++i) {
     double weight = 0.0;
-    for (const GatedWall& wall : walls) {
-      const auto peak = bestPeak(wall, turns.at(i), config_, kHough.distance_penalty);
-      if (peak) weight += peak->weight;
+    for (Ballot& ballot : ballots) {
+      const auto bin = ballot.isEmpty() ? std::nullopt : ballot.heaviest(turns.at(i));
+      if (bin) weight += ballot.weightOf(*bin);
     }
     const double off = static_cast<double>(i) / (turns.half + 1);
     const double score = weight * (1.0 - kHough.turn_penalty * squared(off));
@@ -121,8 +163,8 @@ HoughPeaks RangeWeightedHough::transform(const std::vector<GatedWall>& walls) co
     best_score = score;
     best.turn = turns.at(i);
   }
-  for (const GatedWall& wall : walls) {
-    best.walls.push_back(peaksAt(wall, best.turn, config_));
+  for (Ballot& ballot : ballots) {
+    best.walls.push_back(peaksAt(ballot, best.turn));
     for (WallPeak& peak : best.walls.back()) peak.turn_bin = turns.bin;
   }
   return best;
@@ -130,11 +172,13 @@ HoughPeaks RangeWeightedHough::transform(const std::vector<GatedWall>& walls) co
 
 std::optional<WallPeak> RangeWeightedHough::heaviest(const GatedWall& wall) const {
   const Axis turns(wall.gate.size().angle, config_.angle_bin);
+  Ballot ballot(wall, config_, 0.0);
   std::optional<WallPeak> best;
+  if (ballot.isEmpty()) return best;
   for (int i = -turns.half; i <= turns.half; ++i) {
-    const auto peak = bestPeak(wall, turns.at(i), config_, 0.0);
-    if (!peak || (best && peak->weight <= best->weight)) continue;
-    best = peak;
+    const auto bin = ballot.heaviest(turns.at(i));
+    if (!bin || (best && ballot.weightOf(*bin) <= best->weight)) continue;
+    best = ballot.peak(turns.at(i), *bin, ballot.weightOf(*bin));
     best->turn_bin = turns.bin;
   }
   return best;

@@ -2,44 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include <Eigen/LU>
-
-#include "sightline/tracking/relocaliser.h"
 
 namespace sightline::tracking {
 
 namespace {
 
-using geometry::Pose2;
 using geometry::UncertainPose2;
 
 constexpr struct {
   // A start vaguer than this is searched for [m, rad].
   double vague_position = 1.0;
   double vague_heading = 0.5;
-  // Log odds: a pose given by hand is wrong once in a hundred times; a robot that was tracked is
-  // pushed or turned more often than it is carried away.
-  double wrong_start = -4.6;
-  double pushed = -6.0;
-  double carried = -9.2;
-  double push_reach = 0.75;     // [m]
-  double slip = 0.3;            // [m]
-  double slip_heading = 0.2;    // [rad]
-  double found_position = 0.1;  // sigma of a pose that was found [m, rad]
-  double found_heading = 0.03;
   double less = 2.3;           // log-likelihood by which a scan says less than another: tenfold
   int search_again = 16;       // scans at most, where the robot stands
-  double as_given = 14.2;      // of chi-square with 3 degrees of freedom, 99.7 %
   double beyond_doubt = 0.99;  // several views that speak for a pose
   double believed = 2.0;       // log odds of a start
 } kRivals;
-
-UncertainPose2 uncertain(const Pose2& pose, double position, double heading) {
-  const Eigen::Array3d sigmas(position, position, heading);
-  return {pose, sigmas.square().matrix().asDiagonal()};
-}
 
 bool isVagueStart(const UncertainPose2& start) {
   const Eigen::Vector3d sigma = start.covariance.diagonal().cwiseSqrt();
@@ -68,6 +46,7 @@ std::optional<TrackerUpdate> RivalTracks::update(const TrackingContext& context,
   const int wait = isSureStart() ? kRivals.search_again : search_again_;
   moveAll(input);
   takeByPublished(context, input, true);
+  T_odom_base_ = input.T_odom_base;
   is_compared_ = keys_.isNew(input) || scans_since_search_ >= wait || explainsLess(input);
   if (is_compared_) takeByPublished(context, input, false);
   if (isInDoubt() && is_compared_) look(context, input);
@@ -129,67 +108,6 @@ void RivalTracks::weigh(const TrackerInput& input, bool is_new_key) {
   }
 }
 
-void RivalTracks::search(const TrackingContext& context, const TrackerInput& input) {
-  scans_since_search_ = 0;
-  std::vector<Hypothesis> found;
-  for (const PoseCandidate& candidate : relocalise(context.map, input.scan, input.T_base_sensor)) {
-    const auto is_known = [&](const Hypothesis& known) {
-      return areOne(known.track.pose().mean, candidate.T_map_base);
-    };
-    if (std::any_of(hypotheses_.begin(), hypotheses_.end(), is_known)) continue;
-    const auto start =
-        uncertain(candidate.T_map_base, kRivals.found_position, kRivals.found_heading);
-    Hypothesis rival{PoseTrack(context, start, candidate.room), PoseBelief(0.0), {}, 0.0, 0.0, {}};
-    rival.track.setUsualHits(usual_hits_);
-    const auto update = rival.track.update(context, input);
-    if (!update) continue;
-    rival.update = *update;
-    rival.belief.take(*update, *input.scan.geometry(), input.T_odom_base);
-    rival.way.add(input.T_odom_base);
-    rival.last_key = likelihoodOf(update->agreement, input);
-    rival.log_posterior = rival.last_key + logPriorOf(context, update->pose.mean);
-    rival.is_trusted = isTrusted(update->pose.mean);
-    found.push_back(std::move(rival));
-  }
-  for (Hypothesis& rival : found) hypotheses_.push_back(std::move(rival));
-  is_checked_ = true;
-}
-
-// Whether a pose that was found is the given one, as far as that was said to be known, or differs
-// from the published one by no more than a slip of the wheels.
-bool RivalTracks::isTrusted(const Pose2& T_map_base) const {
-  if (!is_claimed_ || hypotheses_.empty()) return false;
-  if (!is_checked_) return start_ && mahalanobis(T_map_base) < kRivals.as_given;
-  const Pose2 off = geometry::between(hypotheses_.front().track.pose().mean, T_map_base);
-  return off.translation().norm() < kRivals.slip && std::abs(off.theta()) < kRivals.slip_heading;
-}
-
-double RivalTracks::mahalanobis(const Pose2& T_map_base) const {
-  Eigen::Vector3d off = T_map_base.coordinates() - start_->mean.coordinates();
-  off[2] = geometry::wrapAngle(off[2]);
-  return off.dot(start_->covariance.inverse() * off);
-}
-
-// Prior of a pose that turned up by search and the evidence of the scans before this one: the robot
-// has come there as the odometry says, or from where another hypothesis has it, pushed or carried.
-double RivalTracks::logPriorOf(const TrackingContext& context, const Pose2& T_map_base) const {
-  double prior = -std::numeric_limits<double>::infinity();
-  if (!is_started_ || !is_checked_) {
-    const double given = start_ ? -0.5 * mahalanobis(T_map_base) : 0.0;
-    const double least = is_started_ ? kRivals.wrong_start : kRivals.carried;
-    prior =
-        std::max(least, given) + keys_.logLikelihoodBefore(context.map, T_map_base, usual_hits_);
-    if (is_started_) return prior;
-  }
-  for (const Hypothesis& other : hypotheses_) {
-    const Eigen::Vector2d position = other.track.pose().mean.translation();
-    const bool is_near = (position - T_map_base.translation()).norm() < kRivals.push_reach;
-    const double jump = is_near ? kRivals.pushed : kRivals.carried;
-    prior = std::max(prior, other.log_posterior - other.last_key + jump);
-  }
-  return prior;
-}
-
 // Whether the rest of the map has to be looked at.
 bool RivalTracks::isToBeSearched() const {
   if (!is_claimed_ || !is_checked_ || hypotheses_.empty()) return true;
@@ -238,6 +156,7 @@ void RivalTracks::settle() {
   }
   if (!is_claimed_ || !is_confirmed_) claimIfCertain();
   if (isInDoubt()) return;
+  undoubted_ = Undoubted{hypotheses_.front().track.pose().mean, T_odom_base_};
   keys_.clear();
   search_again_ = 1;
   usual_hits_ = hypotheses_.front().track.usualHits();
@@ -270,10 +189,8 @@ void RivalTracks::takeOverIfCertain() {
   if (!belief.isContradicted() || hypotheses_.size() < 2) return;
   const auto rival = mostProbableRival();
   if (!isCertain(hypotheses_, *rival)) return;
-  const Pose2& published = hypotheses_.front().track.pose().mean;
-  const double distance = (rival->track.pose().mean.translation() - published.translation()).norm();
   const bool is_proven = rival->way.isEnough() && belief.probability() < kHopeless;
-  if (distance >= kRivals.push_reach && !is_proven) return;
+  if (!isInPushReach(hypotheses_.front(), rival->track.pose().mean) && !is_proven) return;
   rival->is_trusted = rival->is_trusted || rival->way.isEnough();
   publish(static_cast<std::size_t>(rival - hypotheses_.begin()));
 }
@@ -283,8 +200,7 @@ void RivalTracks::takeOverIfCertain() {
 void RivalTracks::giveUpStartIfWrong() {
   if (!is_compared_ || hypotheses_.size() < 2) return;
   const auto rival = mostProbableRival();
-  const bool is_refuted =
-      std::log(probabilityOf(hypotheses_, hypotheses_.front())) < kRivals.wrong_start;
+  const bool is_refuted = std::log(probabilityOf(hypotheses_, hypotheses_.front())) < kWrongStart;
   if (!is_refuted && !isCertain(hypotheses_, *rival)) return;
   publish(static_cast<std::size_t>(rival - hypotheses_.begin()));
 }

@@ -33,6 +33,7 @@ void RivalTracks::restartClock() {
   for (Hypothesis& each : hypotheses_) each.track.memory().restartClock();
   keys_.clear();
   way_.forgetLast();
+  undoubted_.reset();
   newest_.reset();
 }
 

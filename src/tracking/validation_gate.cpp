@@ -44,6 +44,26 @@ bool ValidationGate::contains(const BeamPoint& point) const {
   return from_inside && isOnSpan(along);
 }
 
+// The same arithmetic as of one beam, side by side.
+void ValidationGate::excesses(const BeamEnds& ends, std::vector<double>& excesses) const {
+  const std::size_t count = ends.x.size();
+  excesses.resize(count);
+  const double* x = ends.x.data();
+  const double* y = ends.y.data();
+  double* excess = excesses.data();
+  const double start_x = start_base_.x(), start_y = start_base_.y();
+  const double normal_x = normal_.x(), normal_y = normal_.y();
+  const double along_x = direction_.x(), along_y = direction_.y();
+  const double opening = size_.opening, slope = slope_, foot = foot_;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double from_x = x[i] - start_x;
+    const double from_y = y[i] - start_y;
+    const double along = along_x * from_x + along_y * from_y;
+    const double distance = normal_x * from_x + normal_y * from_y;
+    excess[i] = std::abs(distance) - (opening + std::abs(along - foot) * slope);
+  }
+}
+
 bool ValidationGate::isOnSpan(double along) const {
   return std::any_of(wall_->spans.begin(), wall_->spans.end(), [&](const world::Span& span) {
     return along >= span.from - along_slack_ && along <= span.to + along_slack_;

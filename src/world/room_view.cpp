@@ -33,9 +33,11 @@ FacingSide::FacingSide(const geometry::Segment& segment, const Eigen::Vector2d& 
 std::optional<FacingSide::Meeting> FacingSide::meet(const Eigen::Vector2d& direction) const {
   const double approach = -normal_.dot(direction);
   if (distance_ <= 0.0 || approach <= kRays.least_approach) return std::nullopt;
+  // Most rays pass by: that is seen before anything is divided.
+  const double along_by_approach = foot_ * approach + distance_ * direction_.dot(direction);
+  if (along_by_approach < 0.0 || along_by_approach > length_ * approach) return std::nullopt;
   const double range = distance_ / approach;
   const double along = foot_ + range * direction_.dot(direction);
-  if (along < 0.0 || along > length_) return std::nullopt;
   return Meeting{range, along, std::min(1.0, approach)};
 }
 
@@ -78,12 +80,14 @@ std::optional<RoomView::Ray> RoomView::start(const Eigen::Vector2d& direction) c
 
 // The nearest wall of the room that the ray is in, beyond the place where it came in.
 std::optional<Sighting> RoomView::first(const Ray& ray) const {
-  std::optional<Sighting> nearest;
+  std::optional<FacingSide::Meeting> nearest;
+  std::size_t nearest_wall = 0;
   const auto consider = [&](const FacingSide& side, std::size_t wall) {
     const auto meeting = side.meet(ray.direction);
     if (!meeting || meeting->range < ray.range) return;
     if (nearest && meeting->range >= nearest->range) return;
-    nearest = Sighting{{ray.room, wall}, meeting->range, meeting->along, meeting->cos_incidence};
+    nearest = meeting;
+    nearest_wall = wall;
   };
   if (ray.room == room_) {
     for (std::size_t i = 0; i < sides_.size(); ++i) consider(sides_[i], side_walls_[i]);
@@ -91,8 +95,11 @@ std::optional<Sighting> RoomView::first(const Ray& ray) const {
     const std::vector<Wall>& walls = map_.rooms()[ray.room].walls;
     for (std::size_t i = 0; i < walls.size(); ++i) consider({walls[i].segment, eye_}, i);
   }
-  if (nearest) judge(*nearest, ray.margin);
-  return nearest;
+  if (!nearest) return std::nullopt;
+  Sighting sighting{
+      {ray.room, nearest_wall}, nearest->range, nearest->along, nearest->cos_incidence};
+  judge(sighting, ray.margin);
+  return sighting;
 }
 
 void RoomView::judge(Sighting& sighting, double margin) const {

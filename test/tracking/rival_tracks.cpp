@@ -92,6 +92,17 @@ TEST_F(RivalTracksTest, UnreportedTurnsAreFound) {
   }
 }
 
+TEST_F(RivalTracksTest, ATurnIsFoundWhereItHappenedHoweverFarTheWrongPoseHasRun) {
+  startAt(truth_);
+  go({0.05, 0.0, 0.0}, 45);
+  ASSERT_EQ(last_->state, TrackerState::kTracking);
+  const Pose2 run(0.6, 0.0, 0.0);
+  truth_ = truth_ * Pose2(0.0, 0.0, geometry::kPi) * run;
+  odometry_ = odometry_ * run;
+  EXPECT_NE(look()->state, TrackerState::kTracking);
+  EXPECT_TRUE(isAt(go({0.0, 0.0, 0.1}, 8), truth_)) << "a metre off, but a turn, no kidnapping";
+}
+
 TEST_F(RivalTracksTest, KidnappingOfARobotThatWasCertainIsFlaggedUntilTheOtherPoseHasProvenItself) {
   startAt(truth_);
   go({0.0, 0.0, 0.1}, 40);

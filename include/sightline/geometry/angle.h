@@ -15,12 +15,14 @@ constexpr double degrees(double radians) {
 
 /// The same direction in (−π, π]. NaN and infinities give NaN.
 inline double wrapAngle(double angle) {
+  if (std::abs(angle) < kPi) return angle;
   const double wrapped = std::remainder(angle, 2.0 * kPi);
   return wrapped <= -kPi ? kPi : wrapped;
 }
 
 /// The same undirected orientation in (−π/2, π/2]: walls look alike from both ends.
 inline double wrapOrientation(double angle) {
+  if (std::abs(angle) < 0.5 * kPi) return angle;
   const double wrapped = std::remainder(angle, kPi);
   return wrapped <= -0.5 * kPi ? 0.5 * kPi : wrapped;
 }

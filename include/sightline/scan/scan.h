@@ -89,6 +89,7 @@ class Scan {
   std::vector<double> range_variances_;
   std::vector<double> intensities_;
   std::vector<geometry::Pose2> sensor_motion_;
+  std::vector<Eigen::Vector2d> directions_;  // as the motion has turned them; empty without one
 };
 
 /// The scan as a sensor the right way up at the same place would have taken it, of one that hangs

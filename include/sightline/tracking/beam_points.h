@@ -28,6 +28,13 @@ struct Reach {
   double range_max = std::numeric_limits<double>::infinity();
 };
 
+/// Ends of beams, coordinate by coordinate, for what looks at all of them.
+struct BeamEnds {
+  std::vector<double> x, y;  ///< in the base frame [m]
+
+  explicit BeamEnds(const std::vector<BeamPoint>& points);
+};
+
 /// The valid beams of a scan, and what is not known of the motion from the first beam to the last.
 struct Sweep {
   std::vector<BeamPoint> points;

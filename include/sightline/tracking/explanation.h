@@ -20,6 +20,7 @@ struct Explanation {
   double log_repeats = 0.0;    ///< part of it by beams that repeat what others on a wall say
   /// What the robot is taken to have done since the last scan.
   enum class Motion { kWheels, kCoasting, kSlip, kUnknown } motion = Motion::kWheels;
+  bool may_have_slipped = false;  ///< as likely as not, but not so that the pose may be moved
 };
 
 /// Walls of a room, and of those behind its doors.

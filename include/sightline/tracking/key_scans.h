@@ -13,6 +13,7 @@ struct KeyScan {
   scan::Scan scan;
   geometry::Pose2 T_odom_base;
   geometry::Pose2 T_base_sensor;
+  geometry::Pose2 T_odom_view;  ///< where the first scan of the same view was taken
 };
 
 /// Whether a scan taken there says something new: 0.3 m or 20° away.
@@ -24,7 +25,8 @@ class KeyScans {
  public:
   /// Whether a scan taken here says something new.
   bool isNew(const TrackerInput& input) const;
-  /// Keeps a scan, in the place of the last one where it is not new.
+  /// Keeps a scan, in the place of the last one where it is of the same view. A view does not move
+  /// with the scans that it keeps: a robot that turns slowly sees another one in the end.
   void add(const TrackerInput& input);
   void clear() { scans_.clear(); }
 

@@ -44,6 +44,9 @@ class PoseBelief {
   bool is_dismissed_ = false;         // what surprises in this view
 };
 
+/// Whether 4 % or more of the beams that say something go through walls.
+bool goesThroughWalls(const ScanAgreement& agreement);
+
 /// A scan that a pose may be claimed by: less than 4 % of the beams go through walls, and at least
 /// 30 % of those that say something meet them.
 bool isSound(const ScanAgreement& agreement);

@@ -55,6 +55,8 @@ class PoseTrack {
   bool isContradicted(const TrackingContext& context, const TrackerInput& input,
                       const Explanation& explanation) const;
   bool isMotionDoubted(const Explanation& explanation) const;
+  static Explanation slippedOr(Explanation best, Explanation slipped, double log_prior,
+                               const TrackerInput& input);
   void learnMotion(const TrackerInput& input, const Explanation& explanation);
   Explanation withoutWalls(const Explanation& taken, const TrackingContext& context,
                            const TrackerInput& input) const;

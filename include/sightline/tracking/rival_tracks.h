@@ -19,9 +19,9 @@ namespace sightline::tracking {
 /// has turned by 180° or driven 2 m as well: what the map lacks is no noise, so that no ratio of
 /// evidence is safe by itself. Until the first claim there are no updates, and the most probable
 /// pose is the published one; from then on another one takes its place only where the scan speaks
-/// against it and the other is certain: within 0.75 m, where the robot may have been pushed or
-/// turned, at once; elsewhere after the other has explained what was seen for as long as a claim
-/// takes. After a jump the updates are flagged.
+/// against it and the other is certain: within 0.75 m, now or where nothing was in doubt last, at
+/// once, as the robot may have been pushed or turned; elsewhere after the other has explained what
+/// was seen for as long as a claim takes. After a jump the updates are flagged.
 class RivalTracks {
  public:
   /// Anywhere in the map.
@@ -45,6 +45,14 @@ class RivalTracks {
   std::vector<RivalPose> rivals() const;
 
  private:
+  // Log odds: a pose given by hand is wrong once in a hundred times.
+  static constexpr double kWrongStart = -4.6;
+  // Where the robot was when nothing was in doubt last.
+  struct Undoubted {
+    geometry::Pose2 T_map_base;
+    geometry::Pose2 T_odom_base;
+  };
+
   void moveAll(const TrackerInput& input);
   void takeByPublished(const TrackingContext& context, const TrackerInput& input,
                        bool is_published);
@@ -55,7 +63,8 @@ class RivalTracks {
   void search(const TrackingContext& context, const TrackerInput& input);
   bool isTrusted(const geometry::Pose2& T_map_base) const;
   double mahalanobis(const geometry::Pose2& T_map_base) const;
-  double logPriorOf(const TrackingContext& context, const geometry::Pose2& T_map_base) const;
+  bool isInPushReach(const Hypothesis& from, const geometry::Pose2& T_map_base) const;
+  double logPriorOf(const TrackingContext& context, const Hypothesis& rival) const;
   void settle();
   void claimIfCertain();
   void dismissRivals();
@@ -76,7 +85,9 @@ class RivalTracks {
   // no doubt last.
   double usual_hits_ = kUsualHits;
   KeyScans keys_;
-  WayTravelled way_;  // since the published pose was last put in question
+  WayTravelled way_;             // since the published pose was last put in question
+  geometry::Pose2 T_odom_base_;  // at the last scan
+  std::optional<Undoubted> undoubted_;
   std::optional<std::int64_t> newest_;
   bool is_started_ = false;
   bool is_claimed_ = false;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "sightline/geometry/polar_line.h"
 #include "sightline/geometry/pose2.h"
 #include "sightline/tracking/beam_points.h"
@@ -20,6 +22,9 @@ class ValidationGate {
   /// Whether a beam may have met the wall: within δ + distance from the foot · tan γ of the
   /// predicted line, on a stretch where the wall is really there, met from inside the room.
   bool contains(const BeamPoint& point) const;
+  /// How far each end of a beam lies outside, whatever stretch of the wall it is on; negative
+  /// inside [m].
+  void excesses(const BeamEnds& ends, std::vector<double>& excesses) const;
 
   const GateSize& size() const { return size_; }
   /// The wall as predicted, in the base frame.
