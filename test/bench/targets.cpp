@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   };
   const Part parts[] = {
       {"clutter", [] { bench::measureClutter(); }},
-      {"detector", [&] { bench::measureDetector(seedsOf(6)); }},
+      {"detector", [&] { bench::measureDetector(seeds); }},
       {"places", [&] { bench::measurePlaces(seedsOf(2)); }},
       {"team", [&] { bench::measureTeams(seeds); }},
       {"consistency", [&] { bench::measureConsistencies(seeds); }},
