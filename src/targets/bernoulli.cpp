@@ -24,6 +24,8 @@ BearingPrediction predictBearing(const Component& component,
   const BearingJacobians jacobians = bearingJacobians(component.mean, T_map_sensor.mean);
   BearingPrediction result;
   result.polar = jacobians.polar;
+  result.slope = jacobians.point;
+  result.shared.setZero();
   result.gain = component.covariance * jacobians.point.transpose();
   result.variance = sigma * sigma + jacobians.point * result.gain +
                     jacobians.pose * T_map_sensor.covariance * jacobians.pose.transpose();
@@ -33,9 +35,13 @@ BearingPrediction predictBearing(const Component& component,
 Component updated(const Component& component, const BearingPrediction& prediction,
                   double innovation) {
   Component result = component;
-  const double variance = prediction.variance + prediction.lasting;
-  result.mean += prediction.gain * (innovation / variance);
-  result.covariance -= prediction.gain * prediction.gain.transpose() / variance;
+  const Eigen::Vector2d weight = prediction.gain / prediction.variance;
+  result.mean += weight * innovation;
+  result.covariance -= weight * prediction.gain.transpose();
+  for (SharedCovariance& shared : result.shared) shared -= weight * (prediction.slope * shared);
+  if (prediction.robot < result.shared.size()) {
+    result.shared[prediction.robot] -= weight * prediction.shared;
+  }
   return result;
 }
 
@@ -50,6 +56,15 @@ double squareDistance(const Component& heavy, const Component& other) {
   return scaled / determinant;
 }
 
+void mergeShared(Component& into, const Component& other, double share) {
+  const std::size_t robots = std::max(into.shared.size(), other.shared.size());
+  into.shared.resize(robots, SharedCovariance::Zero());
+  for (std::size_t i = 0; i < robots; ++i) {
+    into.shared[i] *= 1.0 - share;
+    if (i < other.shared.size()) into.shared[i] += share * other.shared[i];
+  }
+}
+
 // Adds another Gaussian so that mean and covariance of both together are kept.
 void merge(Component& into, const Component& other) {
   const double weight = into.weight + other.weight;
@@ -58,6 +73,7 @@ void merge(Component& into, const Component& other) {
   into.covariance = (1.0 - share) * into.covariance + share * other.covariance +
                     share * (1.0 - share) * apart * apart.transpose();
   into.mean += share * apart;
+  mergeShared(into, other, share);
   into.weight = weight;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sightline/targets/belief_propagation.h"
 #include "sightline/targets/candidate.h"
+#include "sightline/targets/joint_association.h"
 #include "sightline/targets/look.h"
 
 namespace sightline::targets {
@@ -27,21 +27,6 @@ Bernoulli lostMate(const LostMate& mate) {
   return bernoulli;
 }
 
-// Weights of targets with measurements over those of both apart (Williams and Lau 2014); below them
-// those of known things, which compete for the measurements.
-Eigen::MatrixXd ratiosOf(const std::vector<Candidate>& candidates, const Look& look,
-                         const std::vector<double>& unknown) {
-  const std::size_t targets = candidates.size();
-  Eigen::MatrixXd ratio(targets + look.knownCount(), unknown.size());
-  for (std::size_t i = 0; i < targets + look.knownCount(); ++i) {
-    for (std::size_t m = 0; m < unknown.size(); ++m) {
-      const double weight = i < targets ? candidates[i].ratio(m) : look.knownRatio(i - targets, m);
-      ratio(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(m)) = weight / unknown[m];
-    }
-  }
-  return ratio;
-}
-
 }  // namespace
 
 void BernoulliFilterConfig::visit(config::FieldVisitor& visitor) {
@@ -58,6 +43,11 @@ void BernoulliFilterConfig::visit(config::FieldVisitor& visitor) {
   visitor.number("moving_noise", moving_noise,
                  {"m^2/s", {0.0, 1e6}, "variance that a moving target gains"});
   visitor.number("lifetime", lifetime, {"s", {1.0, 1e12}, "mean time that a target stays"});
+  visitor.number("pose_duration", pose_duration,
+                 {"s",
+                  {1e-3, 1e6},
+                  "time constant after which the pose of a robot errs in another way; looks within "
+                  "it do not average the error out"});
   visitor.number("cutoff", cutoff,
                  {"m",
                   {1e-6, 1e6},
@@ -106,6 +96,7 @@ std::vector<Candidate> BernoulliFilter::candidatesOf(const Look& look) {
   for (std::size_t i = 0; i < bernoullis_.size(); ++i) {
     if (!mayBeSeen(bernoullis_[i], look)) continue;
     predict(bernoullis_[i]);
+    look.age(bernoullis_[i]);
     Candidate candidate(i, bernoullis_[i], look);
     if (candidate.detection() > 0.0) candidates.push_back(std::move(candidate));
   }
@@ -115,7 +106,7 @@ std::vector<Candidate> BernoulliFilter::candidatesOf(const Look& look) {
 void BernoulliFilter::update(const BearingSet& set, const SensorModel& model) {
   stamp_ = std::max(stamp_, set.stamp);
   place_sigma_ = std::max(place_sigma_, model.config().bearing.place_sigma);
-  const Look look(set, model);
+  const Look look(set, model, config_.pose_duration);
   follow(set.lost);
   std::vector<Candidate> candidates = candidatesOf(look);
   std::vector<Birth> births;
@@ -124,7 +115,7 @@ void BernoulliFilter::update(const BearingSet& set, const SensorModel& model) {
     births.push_back(birthAlong(look, m, undetected_, config_.ranges, config_.nearest));
     unknown.push_back(std::max(births.back().mass + look.clutter(m), 1e-12));
   }
-  const Association association = associate(ratiosOf(candidates, look, unknown));
+  const Association association = associateTogether(candidates, look, unknown);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Bernoulli& bernoulli = bernoullis_[candidates[i].index()];
     candidates[i].apply(association.assigned.row(static_cast<Eigen::Index>(i)), bernoulli);
@@ -155,6 +146,7 @@ void BernoulliFilter::add(const Birth& birth, double scale, double clutter, cons
   bernoulli.stamp = stamp_;
   bernoulli.mixture = withModes(birth.mixture, shares, look);
   noteVisible(bernoulli, look);
+  look.age(bernoulli);
   bernoullis_.push_back(std::move(bernoulli));
 }
 

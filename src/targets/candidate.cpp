@@ -46,7 +46,7 @@ double brightness(const Look& look, const Component& component,
   if (component.mode == Mode::kFaint) return clutter.faint_detection;
   if (component.mode != Mode::kGlint) return 1.0;
   const double lobe = std::pow(clutter.glint_width, 2);
-  const double spread = prediction.variance - std::pow(look.sigma(), 2);
+  const double spread = std::max(prediction.variance - std::pow(look.sigma(), 2), 0.0);
   const double off = geometry::wrapAngle(directionTo(look, component.mean) - component.facing);
   const double width = lobe + spread;
   return std::sqrt(lobe / width) * std::exp(-0.5 * off * off / width);
@@ -61,21 +61,19 @@ Candidate::Candidate(std::size_t index, const Bernoulli& bernoulli, const Look& 
       visible_(visibilityOf(bernoulli, look)) {
   const double scale = 1.0 / look.model().config().visibility.share;
   for (const Component& component : bernoulli.mixture) {
-    predictions_.push_back(predictBearing(component, look.pose(), look.sigma()));
-    predictions_.back().lasting =
-        (look.model().config().bearing.inflation - 1.0) * look.sigma() * look.sigma();
+    predictions_.push_back(look.predict(component));
     const double visible_detection =
         std::min(0.999, scale * look.detection(component, predictions_.back().polar));
     detections_.push_back(visible_ * visible_detection *
                           brightness(look, component, predictions_.back()));
-    detection_ += component.weight * detections_.back();
+    heights_.push_back(component.weight * detections_.back());
+    detection_ += heights_.back();
   }
   if (detection_ == 0.0) return;
   for (std::size_t m = 0; m < look.size(); ++m) {
     sums_.push_back(0.0);
     for (std::size_t j = 0; j < predictions_.size(); ++j) {
-      weights_.push_back(bernoulli.mixture[j].weight * detections_[j] *
-                         look.likelihood(m, predictions_[j]));
+      weights_.push_back(heights_[j] * look.likelihood(m, predictions_[j]));
       sums_.back() += weights_.back();
     }
   }
@@ -83,6 +81,31 @@ Candidate::Candidate(std::size_t index, const Bernoulli& bernoulli, const Look& 
 
 double Candidate::ratio(std::size_t measurement) const {
   return existence_ * sums_[measurement] / (1.0 - existence_ * detection_ + 1e-12);
+}
+
+double Candidate::ratio(std::size_t measurement, const Look::Offset& offset) const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < predictions_.size(); ++j) {
+    sum += heights_[j] * look_.likelihood(measurement, predictions_[j], offset);
+  }
+  return existence_ * sum / (1.0 - existence_ * detection_ + 1e-12);
+}
+
+Pull pullOf(const Look::Innovation& innovation, const Look& look) {
+  const double information =
+      1.0 / std::max(innovation.variance - look.commonVariance(), look.ownVariance());
+  return {information, information * innovation.error};
+}
+
+Pull Candidate::pull(std::size_t measurement) const {
+  Pull sum;
+  if (!(sums_[measurement] > 0.0)) return sum;
+  for (std::size_t j = 0; j < predictions_.size(); ++j) {
+    const double share = weight(measurement, j) / sums_[measurement];
+    if (share < 1e-6) continue;
+    sum.add(share, pullOf(look_.innovation(measurement, predictions_[j]), look_));
+  }
+  return sum;
 }
 
 void Candidate::addMissed(const Bernoulli& bernoulli, double probability, Mixture& mixture) const {

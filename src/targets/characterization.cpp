@@ -165,6 +165,8 @@ RobotCharacter characterOf(const std::vector<KnownLook>& looks,
   left.bias = left.lag = 0.0;
   left.distortion.reset();
   character.error_inflation = inflationOf(apart, of_apart.opportunities, left);
+  // All looks: those that a filter uses are too few and too much of turns to tell times.
+  character.shared = fitSharedErrors(looks, labels.opportunities, left);
   places.add({apart, labelling, left, character.error_inflation});
   return character;
 }
@@ -234,8 +236,11 @@ SensorModelConfig RobotCharacter::model() const {
   model.bearing.bias = errors.bias;
   model.bearing.distortion = errors.distortion;
   model.bearing.lag = std::clamp(errors.lag, -10.0, 10.0);
+  model.bearing.jitter = std::min(errors.jitter, 10.0);
   model.bearing.tail = std::min(errors.tail, 10.0);
-  model.bearing.inflation = std::min(error_inflation, 1e4);
+  model.bearing.common_share = shared.common_share;
+  model.bearing.lasting_share = shared.lasting_share;
+  model.bearing.lasting_duration = shared.lasting_duration;
   model.bearing.place_sigma = std::min(place_sigma, 10.0);
   model.clutter = {clutter_mean, 1.0, 0.0};
   return model;

@@ -56,10 +56,14 @@ void addRobot(const std::string& name, const RobotCharacter& robot,
                       static_cast<double>(std::max<std::size_t>(robot.opportunities, 1))));
   if (errors.sigma > 0.0) {
     lines.push_back(fmt::format(
-        "  sigma {:.3f} deg, bias {:.3f} deg, lag {:.1f} +- {:.1f} ms, with tails "
-        "{:.2f} times sigma; errors last: the mean of many has {:.1f} times the variance",
+        "  sigma {:.3f} deg, bias {:.3f} deg, lag {:.1f} +- {:.1f} ms, jitter {:.1f} ms, with "
+        "tails {:.2f} times sigma; errors last: the mean of many has {:.1f} times the variance",
         geometry::degrees(errors.sigma), geometry::degrees(errors.bias), 1e3 * errors.lag,
-        1e3 * errors.lag_sigma, errors.tail, robot.error_inflation));
+        1e3 * errors.lag_sigma, 1e3 * errors.jitter, errors.tail, robot.error_inflation));
+    lines.push_back(fmt::format(
+        "  of their variance {:.0f} % is common to a look, {:.0f} % lasts, forgotten in {:.1f} s",
+        100.0 * robot.shared.common_share, 100.0 * robot.shared.lasting_share,
+        robot.shared.lasting_duration));
     if (errors.distortion) {
       const auto& by_bearing = errors.distortion->errors;
       const auto [low, high] = std::minmax_element(by_bearing.begin(), by_bearing.end());

@@ -20,6 +20,7 @@ using Terms = Eigen::Matrix<double, kTerms, 1>;
 struct ErrorRow {
   Terms terms;
   double error = 0.0;
+  double scale = 1.0;  // of its standard deviation over that of a sensor at rest
 };
 
 // Bearings between which nearly all detections lie.
@@ -74,11 +75,15 @@ struct ErrorRegression {
       solve(rows, terms, gate);
     }
     log_likelihood = mixture.logLikelihood(leftOf(rows), gate);
+    for (const ErrorRow& row : rows) log_likelihood -= std::log(row.scale);
   }
 
+  double leftOf(const ErrorRow& row) const {
+    return (row.error - slopes.dot(row.terms)) / row.scale;
+  }
   std::vector<double> leftOf(const std::vector<ErrorRow>& rows) const {
     std::vector<double> left;
-    for (const ErrorRow& row : rows) left.push_back(row.error - slopes.dot(row.terms));
+    for (const ErrorRow& row : rows) left.push_back(leftOf(row));
     return left;
   }
 
@@ -88,7 +93,7 @@ struct ErrorRegression {
     Eigen::MatrixXd squares = kTiny * Eigen::MatrixXd::Identity(terms, terms);
     Eigen::VectorXd products = Eigen::VectorXd::Zero(terms);
     for (const ErrorRow& row : rows) {
-      const double weight = mixture.weightOf(row.error - slopes.dot(row.terms), gate);
+      const double weight = mixture.weightOf(leftOf(row), gate) / (row.scale * row.scale);
       squares += weight * row.terms.head(terms) * row.terms.head(terms).transpose();
       products += weight * row.error * row.terms.head(terms);
     }
@@ -98,10 +103,33 @@ struct ErrorRegression {
   }
 };
 
-ErrorFit fitOf(const ErrorRegression& regression, std::size_t used) {
+void scaleBy(double ratio, std::vector<ErrorRow>& rows) {
+  for (ErrorRow& row : rows) row.scale = std::hypot(1.0, ratio * row.terms[1]);
+}
+
+// Jitter of the stamps over σ [s/rad], by the likelihood of what bias and lag leave; 0 where it
+// does not pay. Scales the rows by it.
+double scaleByJitter(const ErrorRegression& even, double gate, std::vector<ErrorRow>& rows) {
+  double best = 0.0;
+  double most = even.log_likelihood + 0.5 * std::log(static_cast<double>(rows.size()));
+  for (double ratio = 0.5; ratio < 30.0; ratio *= 1.5) {
+    scaleBy(ratio, rows);
+    const std::vector<double> left = even.leftOf(rows);
+    double value = ErrorMixture::of(left, gate).logLikelihood(left, gate);
+    for (const ErrorRow& row : rows) value -= std::log(row.scale);
+    if (value <= most) continue;
+    most = value;
+    best = ratio;
+  }
+  scaleBy(best, rows);
+  return best;
+}
+
+ErrorFit fitOf(const ErrorRegression& regression, double jitter_ratio, std::size_t used) {
   ErrorFit fit;
   fit.sigma = regression.mixture.sigma;
   fit.tail = regression.mixture.tail();
+  fit.jitter = jitter_ratio * fit.sigma * fit.tail;
   fit.bias = regression.slopes[0];
   fit.lag = regression.slopes[1];
   fit.lag_sigma = std::sqrt(regression.lag_variance);
@@ -137,15 +165,16 @@ ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opport
       labelled.begin(), labelled.end(), [](const Opportunity& one) { return one.is_detected; }));
   if (result.used < kFewest) return result;
   const Extent extent = extentOf(labelled);
-  const std::vector<ErrorRow> rows = rowsOf(looks, labelled, extent);
+  std::vector<ErrorRow> rows = rowsOf(looks, labelled, extent);
+  const double jitter_ratio = scaleByJitter(ErrorRegression(rows, 2, gate), gate, rows);
   const ErrorRegression even(rows, 2, gate);
-  result = fitOf(even, rows.size());
+  result = fitOf(even, jitter_ratio, rows.size());
   const ErrorRegression curved(rows, kTerms, gate);
   // Bayes' criterion; errors that last are fewer than they look.
   const double price = 0.5 * (kTerms - 2) * std::log(static_cast<double>(rows.size()));
   const double gain = curved.log_likelihood - even.log_likelihood;
   if (gain <= price * inflationOf(looks, labelled, result)) return result;
-  result = fitOf(curved, rows.size());
+  result = fitOf(curved, jitter_ratio, rows.size());
   addDistortion(curved, rows, extent, result);
   return result;
 }
@@ -160,9 +189,9 @@ std::map<std::size_t, std::vector<double>> errorsByTarget(const std::vector<Know
   std::map<std::size_t, std::vector<double>> errors;
   for (const Opportunity& one : labelled) {
     if (!one.is_detected) continue;
-    const double left =
-        one.error - fit.biasAt(one.place.bearing) - fit.lag * looks[one.look].turn_rate;
-    errors[one.target].push_back(std::clamp(left / (fit.sigma * fit.tail), -kFarthest, kFarthest));
+    const double turn_rate = looks[one.look].turn_rate;
+    const double left = one.error - fit.biasAt(one.place.bearing) - fit.lag * turn_rate;
+    errors[one.target].push_back(std::clamp(left / fit.sigmaAt(turn_rate), -kFarthest, kFarthest));
   }
   return errors;
 }
@@ -221,6 +250,7 @@ ErrorFit fitErrors(const std::vector<KnownLook>& looks,
     if (round == 0) {
       errors = left;
       labelling.sigma = left.sigma * left.tail;
+      labelling.jitter = left.jitter;
     } else {
       errors.bias += left.bias;
       addTo(errors.distortion, left.distortion);

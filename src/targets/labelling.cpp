@@ -31,7 +31,7 @@ std::vector<LabelPair> pairsWithin(const std::vector<Opportunity>& opportunities
   for (std::size_t i = 0; i < opportunities.size(); ++i) {
     for (std::size_t m = 0; m < look.bearings.size(); ++m) {
       const double error = errorOf(look.bearings[m], opportunities[i], look, config);
-      if (std::abs(error) <= config.gate * config.sigma) pairs.push_back({error, i, m});
+      if (std::abs(error) <= config.gateOf(look)) pairs.push_back({error, i, m});
     }
   }
   return pairs;
@@ -98,7 +98,7 @@ bool isMate(double bearing, const KnownLook& look, const LabellingConfig& config
         // A robot is as wide as this at least [m].
         constexpr double kHalfWidth = 0.15;
         const Polar place = polarOf(T_sensor_map * mate);
-        const double reach = config.gate * config.sigma + kHalfWidth / std::max(place.range, 0.3);
+        const double reach = config.gateOf(look) + kHalfWidth / std::max(place.range, 0.3);
         return std::abs(geometry::wrapAngle(bearing - place.bearing -
                                             config.biasAt(place.bearing))) <= reach;
       });
@@ -111,7 +111,7 @@ void labelLook(const KnownLook& look, std::size_t index, const LabellingConfig& 
   const Pairing pairing =
       config.method == LabellingMethod::kNearest
           ? nearestFirst(pairs, opportunities.size(), count)
-          : bestTogether(pairs, opportunities.size(), count, config.gate * config.sigma);
+          : bestTogether(pairs, opportunities.size(), count, config.gateOf(look));
   std::vector<bool> taken(count, false);
   for (std::size_t i = 0; i < pairing.size(); ++i) {
     if (!pairing[i]) continue;

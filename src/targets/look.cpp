@@ -19,12 +19,27 @@ double gaussian(double error, double variance) {
   return std::exp(-0.5 * error * error / variance) / std::sqrt(2.0 * geometry::kPi * variance);
 }
 
-// Lower triangular factor of a covariance.
-Eigen::Matrix2d rootOf(const Eigen::Matrix2d& covariance) {
-  Eigen::Matrix2d root = Eigen::Matrix2d::Zero();
-  root(0, 0) = std::sqrt(std::max(covariance(0, 0), 1e-12));
-  root(1, 0) = covariance(1, 0) / root(0, 0);
-  root(1, 1) = std::sqrt(std::max(covariance(1, 1) - root(1, 0) * root(1, 0), 1e-12));
+// Of all errors at rest [rad].
+double restingSigma(const BearingSet& set, const BearingConfig& errors) {
+  return std::max(errors.sigma * errors.tail, set.sigma);
+}
+
+double sigmaOf(const BearingSet& set, const BearingConfig& errors) {
+  return std::hypot(restingSigma(set, errors), errors.jitter * set.turn_rate);
+}
+
+// Lower triangular factor of a covariance, which may be singular.
+template <int N>
+Eigen::Matrix<double, N, N> rootOf(const Eigen::Matrix<double, N, N>& covariance) {
+  Eigen::Matrix<double, N, N> root = Eigen::Matrix<double, N, N>::Zero();
+  for (int i = 0; i < N; ++i) {
+    const double rest = covariance(i, i) - root.row(i).squaredNorm();
+    if (rest <= 1e-12) continue;  // nothing is left along this axis
+    root(i, i) = std::sqrt(rest);
+    for (int j = i + 1; j < N; ++j) {
+      root(j, i) = (covariance(j, i) - root.row(j).dot(root.row(i))) / root(i, i);
+    }
+  }
   return root;
 }
 
@@ -42,14 +57,15 @@ double meanOver(const Component& component, const Function& function) {
 
 }  // namespace
 
-Look::Look(const BearingSet& set, const SensorModel& model)
+Look::Look(const BearingSet& set, const SensorModel& model, double pose_duration)
     : set_(set),
       model_(model),
       T_sensor_map_(set.T_map_sensor.mean.inverse()),
       field_of_view_(set.field_of_view.within(model.config().field_of_view)),
-      sigma_(std::max(model.config().bearing.sigma * model.config().bearing.tail, set.sigma)) {
+      sigma_(sigmaOf(set, model.config().bearing)) {
   const BearingConfig& errors = model.config().bearing;
   splitErrors(errors.tail);
+  shareErrors(errors, pose_duration);
   for (const double bearing : set.bearings) {
     const double late = errors.lag * set.turn_rate;
     bearings_.push_back(errors.trueBearing(geometry::wrapAngle(bearing - late)));
@@ -66,6 +82,12 @@ Look::Look(const BearingSet& set, const SensorModel& model)
 double Look::knownRatio(std::size_t known, std::size_t measurement) const {
   const Known& thing = known_[known];
   return thing.detection * likelihood(measurement, thing.prediction) /
+         (1.0 - std::min(thing.detection, 0.99));
+}
+
+double Look::knownRatio(std::size_t known, std::size_t measurement, const Offset& offset) const {
+  const Known& thing = known_[known];
+  return thing.detection * likelihood(measurement, thing.prediction, offset) /
          (1.0 - std::min(thing.detection, 0.99));
 }
 
@@ -111,17 +133,84 @@ void Look::splitErrors(double tail) {
   parts_[1] = {share, wide * wide * core_variance - sigma_ * sigma_};
 }
 
-std::array<Look::PartDensity, 2> Look::partsAt(std::size_t measurement,
-                                               const BearingPrediction& prediction) const {
+void Look::shareErrors(const BearingConfig& errors, double pose_duration) {
+  const Eigen::Matrix3d& covariance = pose().covariance;
+  const double resting = std::pow(restingSigma(set_, errors) / sigma_, 2);
+  lasting_sigma_ = std::sqrt(errors.lasting_share * resting) * sigma_;
+  apart_ = 1.0 - errors.lasting_share * resting;
+  own_ = (1.0 - std::max(errors.common_share, errors.lasting_share)) * resting;
+  common_variance_ = (1.0 - own_) * sigma_ * sigma_ + covariance(2, 2);
+  lasts_ = lasting_sigma_ > 0.0 || !covariance.isZero(0.0);
+  pose_root_ = rootOf(covariance);
+  durations_ = {pose_duration, errors.lasting_duration};
+}
+
+BearingPrediction Look::predict(const Component& component) const {
+  BearingPrediction result = predictBearing(component, pose(), sigma_);
+  if (!lasts_) return result;
+  result.robot = set_.robot;
+  result.shared << Eigen::RowVector3d(-result.slope.x(), -result.slope.y(), -1.0) * pose_root_,
+      lasting_sigma_;
+  if (result.robot >= component.shared.size()) return result;
+  const SharedCovariance& known = component.shared[result.robot];
+  result.gain += known * result.shared.transpose();
+  result.variance += 2.0 * result.slope * known * result.shared.transpose();
+  return result;
+}
+
+SharedCovariance Look::sharedAlong(double range, double bearing) const {
+  const double direction = pose().mean.theta() + bearing;
+  const Eigen::Vector2d across(-range * std::sin(direction), range * std::cos(direction));
+  SharedCovariance result;
+  result << pose_root_.topRows<2>() + across * pose_root_.row(2), -lasting_sigma_ * across;
+  return result;
+}
+
+void Look::age(Bernoulli& bernoulli) const {
+  if (!lasts_) return;
+  const std::size_t robot = set_.robot;
+  if (robot >= bernoulli.shared_stamps.size()) {
+    bernoulli.shared_stamps.resize(robot + 1, set_.stamp);
+  }
+  const double passed = 1e-9 * static_cast<double>(set_.stamp - bernoulli.shared_stamps[robot]);
+  const double of_pose = std::exp(-std::abs(passed) / durations_[0]);
+  const double of_sensor = std::exp(-std::abs(passed) / durations_[1]);
+  bernoulli.shared_stamps[robot] = set_.stamp;
+  for (Component& component : bernoulli.mixture) {
+    if (robot >= component.shared.size()) {
+      component.shared.resize(robot + 1, SharedCovariance::Zero());
+    }
+    component.shared[robot].leftCols<3>() *= of_pose;
+    component.shared[robot].col(3) *= of_sensor;
+  }
+}
+
+std::array<Look::PartDensity, 2> Look::partsOf(double error, double variance, double share) const {
   constexpr double kGate = 25.0;
-  const double error = geometry::wrapAngle(bearings_[measurement] - prediction.polar.bearing);
   std::array<PartDensity, 2> densities{};
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const double variance = prediction.variance + parts_[i].extra;
-    const bool is_inside = parts_[i].share > 0.0 && error * error <= kGate * variance;
-    densities[i] = {is_inside ? parts_[i].share * gaussian(error, variance) : 0.0, variance};
+    const double of_part = variance + share * parts_[i].extra;
+    const bool is_inside = parts_[i].share > 0.0 && error * error <= kGate * of_part;
+    densities[i] = {is_inside ? parts_[i].share * gaussian(error, of_part) : 0.0, of_part};
   }
   return densities;
+}
+
+std::array<Look::PartDensity, 2> Look::partsAt(std::size_t measurement,
+                                               const BearingPrediction& prediction) const {
+  const double error = geometry::wrapAngle(bearings_[measurement] - prediction.polar.bearing);
+  return partsOf(error, prediction.variance, apart_);
+}
+
+double Look::likelihood(std::size_t measurement, const BearingPrediction& prediction,
+                        const Offset& offset) const {
+  const double error =
+      geometry::wrapAngle(bearings_[measurement] - prediction.polar.bearing - offset.mean);
+  // Places that share this robot's errors already know part of what is taken off here.
+  const double variance =
+      std::max(prediction.variance - common_variance_ + offset.variance, ownVariance());
+  const auto parts = partsOf(error, variance, own_);
+  return parts[0].density + parts[1].density;
 }
 
 double Look::likelihood(std::size_t measurement, const BearingPrediction& prediction) const {
@@ -135,83 +224,6 @@ Look::Innovation Look::innovation(std::size_t measurement,
   const double weight = parts[0].density / parts[0].variance + parts[1].density / parts[1].variance;
   const double error = geometry::wrapAngle(bearings_[measurement] - prediction.polar.bearing);
   return {error, (parts[0].density + parts[1].density) / weight};
-}
-
-namespace {
-
-struct RangeSpan {
-  double from;
-  double to;
-};
-
-// Mass of undetected targets in a span, and the range of its middle, weighed by it.
-struct SpanMass {
-  double mass = 0.0;
-  double range = 0.0;
-};
-
-SpanMass massOf(const RangeSpan& span, const Look& look, double bearing,
-                const Undetected& undetected) {
-  constexpr int kSamples = 4;
-  const geometry::Pose2& sensor = look.pose().mean;
-  const Eigen::Vector2d direction(std::cos(sensor.theta() + bearing),
-                                  std::sin(sensor.theta() + bearing));
-  const double step = (span.to - span.from) / kSamples;
-  SpanMass result;
-  for (int i = 0; i < kSamples; ++i) {
-    const double range = span.from + (i + 0.5) * step;
-    const Eigen::Vector2d point = sensor.translation() + range * direction;
-    const double detection = look.detection(Polar{range, bearing});
-    if (detection == 0.0 || !look.model().isInSight(point, sensor)) continue;
-    const double mass = undetected.at(point) * detection * range * step;
-    result.mass += mass;
-    result.range += mass * range;
-  }
-  if (result.mass > 0.0) result.range /= result.mass;
-  return result;
-}
-
-// Covers the span along the bearing, and the bearing's error and that of the pose across.
-Component componentOf(const RangeSpan& span, const SpanMass& mass, const Look& look,
-                      double bearing) {
-  const geometry::UncertainPose2& pose = look.pose();
-  const double direction = pose.mean.theta() + bearing;
-  const Eigen::Vector2d along(std::cos(direction), std::sin(direction));
-  const Eigen::Vector2d across(-along.y(), along.x());
-  const double length = (span.to - span.from) / std::sqrt(12.0);
-  const double width = mass.range * look.sigma();
-  Component component;
-  component.weight = mass.mass;
-  component.mean = pose.mean.translation() + mass.range * along;
-  component.covariance =
-      length * length * along * along.transpose() + width * width * across * across.transpose();
-  const Eigen::Matrix<double, 2, 3> by_pose =
-      (Eigen::Matrix<double, 2, 3>() << Eigen::Matrix2d::Identity(), mass.range * across)
-          .finished();
-  component.covariance += by_pose * pose.covariance * by_pose.transpose();
-  return component;
-}
-
-}  // namespace
-
-Birth birthAlong(const Look& look, std::size_t measurement, const Undetected& undetected, int count,
-                 double nearest) {
-  const DetectionConfig& detection = look.model().config().detection;
-  const double first = std::max(nearest, detection.range_min);
-  const double last = std::min(detection.range_max, look.set().range_max);
-  Birth birth;
-  if (first >= last) return birth;
-  const double ratio = std::pow(last / first, 1.0 / count);
-  const double bearing = look.bearing(measurement);
-  RangeSpan span{first, first * ratio};
-  for (int i = 0; i < count; ++i, span = {span.to, span.to * ratio}) {
-    const SpanMass mass = massOf(span, look, bearing, undetected);
-    if (mass.mass <= 0.0) continue;
-    birth.mass += mass.mass;
-    birth.mixture.push_back(componentOf(span, mass, look, bearing));
-  }
-  for (Component& component : birth.mixture) component.weight /= birth.mass;
-  return birth;
 }
 
 }  // namespace sightline::targets

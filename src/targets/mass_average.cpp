@@ -38,7 +38,7 @@ void MassAverageConfig::visit(config::FieldVisitor& visitor) {
 std::int64_t MassAverage::keyOf(const Eigen::Vector2d& place) const {
   const auto x = static_cast<std::int64_t>(std::floor(place.x() / config_.resolution));
   const auto y = static_cast<std::int64_t>(std::floor(place.y() / config_.resolution));
-  return (x << 32) + y;
+  return x * (std::int64_t{1} << 32) + y;  // x may be negative: no shift
 }
 
 Eigen::Vector2d MassAverage::centreOf(std::int64_t key) const {

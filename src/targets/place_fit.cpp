@@ -23,13 +23,13 @@ void PlaceFit::Sums::add(double weight, double error, const Eigen::RowVector2d& 
 std::vector<PlaceFit::Sums> PlaceFit::sumsAt(const std::vector<Eigen::Vector2d>& seen_map) const {
   std::vector<Sums> sums(seen_map.size());
   for (const PlaceLooks& robot : robots_) {
-    const double sigma = robot.errors.sigma * robot.errors.tail;
-    if (!(sigma > 0.0)) continue;
-    const double weight = 1.0 / (sigma * sigma * robot.inflation);
+    if (!(robot.errors.sigma > 0.0)) continue;
     for (const Opportunity& one : label(robot.looks, seen_map, robot.labelling).opportunities) {
       if (!one.is_detected) continue;
-      const geometry::Pose2& pose = robot.looks[one.look].T_map_sensor;
-      sums[one.target].add(weight, one.error, bearingJacobians(seen_map[one.target], pose).point);
+      const KnownLook& look = robot.looks[one.look];
+      const double sigma = robot.errors.sigmaAt(look.turn_rate);
+      sums[one.target].add(1.0 / (sigma * sigma * robot.inflation), one.error,
+                           bearingJacobians(seen_map[one.target], look.T_map_sensor).point);
     }
   }
   return sums;

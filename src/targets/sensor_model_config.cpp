@@ -123,16 +123,25 @@ void BearingConfig::visit(config::FieldVisitor& visitor) {
   visitor.number(
       "lag", lag,
       {"s", {-10.0, 10.0}, "time that looks are stamped late, made good by the turn rate"});
+  visitor.number(
+      "jitter", jitter,
+      {"s", {0.0, 10.0}, "standard deviation of that time, by which bearings err more in turns"});
   visitor.number("tail", tail,
                  {"1",
                   {1.0, 10.0},
                   "standard deviation of all errors over sigma, for errors with heavy tails"});
-  visitor.number(
-      "inflation", inflation,
-      {"1",
-       {1.0, 1e4},
-       "variance of the mean of many bearings of a target over that of independent ones, "
-       "for errors that last over looks"});
+  visitor.number("common_share", common_share,
+                 {"1",
+                  {0.0, 0.99},
+                  "share of the variance that the bearings of one look have in common, as of a "
+                  "heading that is off; 0: each errs by itself"});
+  visitor.number("lasting_share", lasting_share,
+                 {"1",
+                  {0.0, 0.99},
+                  "share of the variance of errors that last over a robot's looks; more looks "
+                  "from one place do not average them out"});
+  visitor.number("lasting_duration", lasting_duration,
+                 {"s", {1e-3, 1e6}, "time constant after which these are other ones"});
   visitor.number("place_sigma", place_sigma,
                  {"m",
                   {0.0, 10.0},

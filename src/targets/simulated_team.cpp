@@ -11,6 +11,10 @@ double normal(std::mt19937_64& random, double sigma) {
   return sigma * std::normal_distribution<double>()(random);
 }
 
+double lastingSigma(const BearingConfig& bearing) {
+  return std::sqrt(bearing.lasting_share) * bearing.sigma;
+}
+
 constexpr std::uint64_t kSamplerSeed = 0x9e3779b97f4a7c15ULL;
 
 }  // namespace
@@ -59,8 +63,14 @@ void BearingSampler::add(double bearing, std::optional<std::size_t> origin, Simu
 }
 
 void BearingSampler::sample(const std::vector<Eigen::Vector2d>& targets_map,
-                            const std::vector<bool>& visible, SimulatedSet& set) {
+                            const std::vector<bool>& visible, double lasting, SimulatedSet& set) {
   const BearingConfig& bearing = model_.config().bearing;
+  const double shared = std::max(bearing.common_share, bearing.lasting_share);
+  const double own_sigma = std::sqrt(1.0 - shared) * bearing.sigma;
+  const double offset =
+      shared > bearing.lasting_share
+          ? lasting + normal(random_, std::sqrt(shared - bearing.lasting_share) * bearing.sigma)
+          : lasting;
   const double share = model_.config().visibility.share;
   const geometry::Pose2 T_sensor_map = set.T_map_sensor.inverse();
   for (std::size_t i = 0; i < targets_map.size(); ++i) {
@@ -68,7 +78,8 @@ void BearingSampler::sample(const std::vector<Eigen::Vector2d>& targets_map,
     const double detection = model_.detection(targets_map[i], set.T_map_sensor) / share;
     if (detection <= 0.0 || uniform(0.0, 1.0) >= detection) continue;
     const Polar place = polarOf(T_sensor_map * targets_map[i]);
-    add(place.bearing + bearing.biasAt(place.bearing) + normal(random_, bearing.sigma), i, set);
+    add(place.bearing + bearing.biasAt(place.bearing) + offset + normal(random_, own_sigma), i,
+        set);
   }
   const int clutter = clutterCount();
   for (int i = 0; i < clutter; ++i) add(clutterBearing(), std::nullopt, set);
@@ -91,6 +102,8 @@ SimulatedTeam::SimulatedTeam(const TeamConfig& config, std::uint64_t seed,
     member.error = {normal(random_, config_.position_sigma),
                     normal(random_, config_.position_sigma),
                     normal(random_, config_.heading_sigma)};
+    const double lasting = lastingSigma(config_.model.bearing);
+    if (lasting > 0.0) member.lasting = normal(random_, lasting);
   }
 }
 
@@ -136,6 +149,11 @@ void SimulatedTeam::drift(Member& member) {
   for (int i = 0; i < 3; ++i) {
     member.error[i] = kept * member.error[i] + normal(random_, fresh * sigma[i]);
   }
+  const BearingConfig& bearing = config_.model.bearing;
+  if (bearing.lasting_share == 0.0) return;
+  const double lasts = std::exp(-config_.period / bearing.lasting_duration);
+  member.lasting = lasts * member.lasting +
+                   normal(random_, std::sqrt(1.0 - lasts * lasts) * lastingSigma(bearing));
 }
 
 void SimulatedTeam::redrawVisibility(Member& member) {
@@ -160,7 +178,7 @@ SimulatedSet SimulatedTeam::look(std::size_t robot) {
           .asDiagonal();
   set.set.field_of_view = model_.config().field_of_view;
   set.set.range_max = model_.config().detection.range_max;
-  sampler_.sample(targets_map_, member.visible, set);
+  sampler_.sample(targets_map_, member.visible, member.lasting, set);
   return set;
 }
 

@@ -9,6 +9,7 @@
 
 #include "sightline/config/csv_table.h"
 #include "sightline/config/error.h"
+#include "sightline/geometry/statistics.h"
 #include "sightline/logs/assignment.h"
 #include "sightline/logs/fields.h"
 
@@ -96,7 +97,14 @@ std::vector<Target> standing(const TargetEstimate& estimate) {
 // Sums of NEES over the pairs of the best assignment that lie within the cut-off.
 struct NeesSum {
   double sum = 0.0;
+  double inside = 0.0;
   double count = 0.0;
+
+  void add(const NeesSum& other) {
+    sum += other.sum;
+    inside += other.inside;
+    count += other.count;
+  }
 };
 
 NeesSum neesOf(const std::vector<Target>& targets, const logs::Points& truth, double cutoff) {
@@ -114,8 +122,8 @@ NeesSum neesOf(const std::vector<Target>& targets, const logs::Points& truth, do
     if (!partners[i]) continue;
     const Eigen::Vector2d error = targets[i].mean - truth[*partners[i]];
     if (error.norm() >= cutoff || targets[i].covariance.determinant() <= 0.0) continue;
-    result.sum += error.dot(targets[i].covariance.inverse() * error);
-    result.count += 1.0;
+    const double square = error.dot(targets[i].covariance.inverse() * error);
+    result.add({square, square <= geometry::kChiSquare95Of2 ? 1.0 : 0.0, 1.0});
   }
   return result;
 }
@@ -135,9 +143,7 @@ void addMoment(const TargetEstimate& estimate, const logs::Points& truth,
   score.mass_error += std::abs(estimate.expected_number - count);
   score.missed += static_cast<double>(gospa.missed);
   score.spurious += static_cast<double>(gospa.spurious);
-  const NeesSum of_moment = neesOf(targets, truth, metric.cutoff);
-  nees.sum += of_moment.sum;
-  nees.count += of_moment.count;
+  nees.add(neesOf(targets, truth, metric.cutoff));
 }
 
 }  // namespace
@@ -161,7 +167,10 @@ TargetScore score(const std::vector<TargetEstimate>& estimates, const logs::Poin
                       &result.missed, &result.spurious}) {
     *sum /= moments;
   }
-  result.nees = nees.count > 0.0 ? nees.sum / nees.count : 0.0;
+  if (nees.count > 0.0) {
+    result.nees = nees.sum / nees.count;
+    result.inside = nees.inside / nees.count;
+  }
   return result;
 }
 

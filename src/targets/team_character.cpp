@@ -22,8 +22,12 @@ void TeamSums::add(const RobotCharacter& robot, double share) {
   biases += share * robot.errors.bias;
   bias_squares += share * robot.errors.bias * robot.errors.bias;
   mean.errors.lag += share * robot.errors.lag;
+  mean.errors.jitter += share * robot.errors.jitter;
   mean.clutter_mean += share * robot.clutter_mean;
   mean.error_inflation += share * (robot.error_inflation - 1.0);
+  mean.shared.common_share += share * robot.shared.common_share;
+  mean.shared.lasting_share += share * robot.shared.lasting_share;
+  mean.shared.lasting_duration += share * robot.shared.lasting_duration;
   mean.visibility.share += share * (robot.visibility.share - 1.0);
   mean.visibility.duration += share * robot.visibility.duration;
   for (std::size_t i = 0; i < robot.table.probabilities.size(); ++i) {
@@ -38,6 +42,7 @@ RobotCharacter teamCharacter(const std::map<std::string, RobotCharacter>& robots
   for (const auto& [name, robot] : robots) tried += static_cast<double>(robot.opportunities);
   TeamSums sums;
   sums.mean.visibility.duration = 0.0;
+  sums.mean.shared.lasting_duration = 0.0;
   sums.mean.table = robots.begin()->second.table;
   sums.mean.place_sigma = robots.begin()->second.place_sigma;
   std::fill(sums.mean.table.probabilities.begin(), sums.mean.table.probabilities.end(), 0.0);

@@ -36,8 +36,9 @@ int evaluate(const TargetComparison& comparison) {
   }
   std::printf("moments %zu\nospa_mean %.4f m\ngospa_mean %.4f m\nnumber_error %.4f targets\n",
               score.moments, score.ospa, score.gospa, score.number_error);
-  std::printf("mass_error %.4f targets\nmissed %.4f targets\nspurious %.4f targets\nnees %.3f\n",
-              score.mass_error, score.missed, score.spurious, score.nees);
+  std::printf("mass_error %.4f targets\nmissed %.4f targets\nspurious %.4f targets\n",
+              score.mass_error, score.missed, score.spurious);
+  std::printf("nees %.3f\ninside_95 %.3f\n", score.nees, score.inside);
   return 0;
 }
 

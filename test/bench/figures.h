@@ -20,6 +20,12 @@ inline double quantile(std::vector<double> values, double share) {
   std::nth_element(values.begin(), values.begin() + static_cast<long>(at), values.end());
   return values[at];
 }
+inline double mean(const std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
 inline double median(const std::vector<double>& values) {
   return quantile(values, 0.5);
 }

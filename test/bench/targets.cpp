@@ -56,8 +56,10 @@ int main(int argc, char** argv) {
   };
   const Part parts[] = {
       {"clutter", [] { bench::measureClutter(); }},
-      {"detector", [&] { bench::measureDetector(seedsOf(6)); }},
+      {"detector", [&] { bench::measureDetector(seeds); }},
+      {"places", [&] { bench::measurePlaces(seedsOf(2)); }},
       {"team", [&] { bench::measureTeams(seeds); }},
+      {"consistency", [&] { bench::measureConsistencies(seeds); }},
       {"fit", [&] { bench::measureFits(seeds); }},
       {"search", [&] { bench::measureSearch(seeds); }},
       {"wrong", [&] { bench::measureWrongModels(seedsOf(4), picture("targets_wrong.png")); }},

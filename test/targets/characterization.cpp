@@ -150,53 +150,6 @@ TEST(CharacterizationStatistics, FindsHiddenSpells) {
   }
 }
 
-TEST(Errors, FindBiasAndLagInTails) {
-  test::Gauss gauss(4);
-  std::vector<KnownLook> looks;
-  std::vector<Opportunity> labelled;
-  for (std::size_t i = 0; i < 20000; ++i) {
-    KnownLook look;
-    look.turn_rate = gauss(0.3);
-    const double sigma = i % 10 == 0 ? 0.025 : 0.01;
-    labelled.push_back({i, 0, {2.0, 0.0}, true, -0.014 + 0.04 * look.turn_rate + gauss(sigma)});
-    looks.push_back(look);
-  }
-  const ErrorFit fit = fitErrors(looks, labelled, 0.1);
-  EXPECT_NEAR(fit.sigma, 0.01, 5e-4);
-  EXPECT_NEAR(fit.bias, -0.014, 5e-4);
-  EXPECT_NEAR(fit.lag, 0.04, 3.0 * fit.lag_sigma + 5e-4);
-  EXPECT_NEAR(fit.tail, std::sqrt(0.9 + 0.1 * 6.25), 0.05);
-}
-
-// A lens: more the farther from its middle, and not alike on both sides.
-double lensError(double bearing) {
-  return 0.01 * bearing + 0.05 * bearing * bearing;
-}
-
-TEST(Errors, FindWhatALensDoes) {
-  for (const bool is_lens : {true, false}) {
-    test::Gauss gauss(6);
-    std::vector<KnownLook> looks;
-    std::vector<Opportunity> labelled;
-    for (std::size_t i = 0; i < 4000; ++i) {
-      KnownLook look;
-      look.turn_rate = gauss(0.3);
-      const double bearing = -0.6 + 1.2 * static_cast<double>(i % 997) / 997.0;
-      const double lens = is_lens ? lensError(bearing) : 0.0;
-      const double error = 0.01 + lens + 0.03 * look.turn_rate + gauss(0.006);
-      labelled.push_back({i, i % 7, {2.0, bearing}, true, error});
-      looks.push_back(look);
-    }
-    const ErrorFit fit = fitErrors(looks, labelled, 0.1);
-    EXPECT_EQ(fit.distortion.has_value(), is_lens);
-    EXPECT_NEAR(fit.sigma, 0.006, 4e-4);
-    EXPECT_NEAR(fit.lag, 0.03, 3.0 * fit.lag_sigma);
-    for (const double bearing : {-0.5, -0.2, 0.1, 0.5}) {
-      EXPECT_NEAR(fit.biasAt(bearing), 0.01 + (is_lens ? lensError(bearing) : 0.0), 8e-4);
-    }
-  }
-}
-
 TEST(TeamCharacter, LiesBetweenItsRobots) {
   RobotCharacter dim;
   dim.opportunities = 100;
@@ -212,36 +165,6 @@ TEST(TeamCharacter, LiesBetweenItsRobots) {
   EXPECT_NEAR(team.errors.sigma, std::hypot(0.01, 0.02), 1e-12);
   EXPECT_EQ(team.visibility.share, 1.0);
   EXPECT_NO_THROW(team.model().check());
-}
-
-// Errors of a first-order process: the sum of its correlations is known.
-TEST(Errors, ThatLastDoNotAverageOut) {
-  for (const double kept : {0.0, 0.8}) {
-    test::Gauss gauss(4);
-    const std::vector<KnownLook> looks(6000);
-    std::vector<Opportunity> labelled;
-    double error = 0.0;
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-      error = kept * error + gauss(0.01 * std::sqrt(1.0 - kept * kept));
-      labelled.push_back({i, 0, {2.0, 0.0}, true, error + 0.02});
-    }
-    ErrorFit fit;
-    fit.sigma = 0.01;
-    fit.bias = 0.02;
-    const double expected = (1.0 + kept) / (1.0 - kept);
-    EXPECT_NEAR(inflationOf(looks, labelled, fit), expected, 0.2 * expected) << kept;
-  }
-}
-
-TEST(Bernoulli, TakesLessOfBearingsWhoseErrorsLast) {
-  Component component;
-  component.mean = {2.0, 0.0};
-  BearingPrediction prediction = predictBearing(component, {}, 0.1);
-  const double independent = updated(component, prediction, 0.1).covariance(1, 1);
-  prediction.lasting = 0.2;
-  const Component lasting = updated(component, prediction, 0.1);
-  EXPECT_GT(lasting.covariance(1, 1), independent);
-  EXPECT_LT(lasting.covariance(1, 1), component.covariance(1, 1));
 }
 
 TEST(Characterization, NeedsTargetsAndLooks) {

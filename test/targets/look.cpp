@@ -61,6 +61,19 @@ TEST(Look, HasTails) {
   EXPECT_GT(look.innovation(middle + 300, prediction).variance, 5.5e-4);
 }
 
+TEST(Look, ErrsMoreInTurnsIfStampsJitter) {
+  SensorModelConfig config;
+  config.bearing.sigma = 0.01;
+  config.bearing.jitter = 0.03;
+  const SensorModel model(config);
+  BearingSet set = test::lookFrom({}, {0.3});
+  EXPECT_NEAR(Look(set, model).sigma(), 0.01, 1e-12);
+  set.turn_rate = 0.5;
+  const Look turning(set, model);
+  EXPECT_NEAR(turning.sigma(), std::hypot(0.01, 0.015), 1e-12);
+  EXPECT_NEAR(turning.commonVariance(), 0.015 * 0.015, 1e-12);
+}
+
 // Half of what a component covers lies behind a wall.
 TEST(Look, SeesOfAComponentWhatNoWallHides) {
   world::World world;

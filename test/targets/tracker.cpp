@@ -188,6 +188,7 @@ TEST(TargetLog, ScoresWhatStandsAtEachMoment) {
   EXPECT_NEAR(late.ospa, 0.5 * (0.1 + 5.0), 1e-12);
   EXPECT_NEAR(late.spurious, 1.0, 1e-12);
   EXPECT_NEAR(late.nees, 1.0, 1e-9);
+  EXPECT_EQ(late.inside, 1.0);
 }
 
 }  // namespace

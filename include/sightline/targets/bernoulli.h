@@ -24,6 +24,11 @@ inline bool isTarget(Mode mode) {
   return mode == Mode::kStanding || mode == Mode::kMoving;
 }
 
+/// Covariance of a place with the errors that the looks of one robot share for a while, each in its
+/// standard deviations: of the pose in x, y and heading, by the Cholesky factor of its covariance,
+/// and of the sensor [m].
+using SharedCovariance = Eigen::Matrix<double, 2, 4>;
+
 /// A Gaussian of a mixture.
 struct Component {
   double weight = 1.0;
@@ -31,6 +36,9 @@ struct Component {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [m²]
   Mode mode = Mode::kStanding;
   double facing = 0.0;  ///< of a glint: direction in the map from it to who saw it first [rad]
+  /// By robot. The errors themselves are not estimated, but accounted for (Schmidt 1966): looks
+  /// that err alike do not make a place as sure as if each erred by itself.
+  std::vector<SharedCovariance> shared = {};
 };
 using Mixture = std::vector<Component>;
 
@@ -46,17 +54,19 @@ struct Bernoulli {
   Mixture mixture;          ///< weights sum to one
   std::int64_t stamp = 0;   ///< to which it has been predicted [ns]
   std::uint32_t label = 0;  ///< 0: never reported yet
-  std::vector<Visibility> visibility;  ///< by robot
-  std::optional<std::size_t> mate;     ///< the robot that it is, where it is one
+  std::vector<Visibility> visibility;       ///< by robot
+  std::vector<std::int64_t> shared_stamps;  ///< by robot, of the covariances with its errors [ns]
+  std::optional<std::size_t> mate;          ///< the robot that it is, where it is one
 };
 
 /// Bearing of a point from an uncertain pose, linearised.
 struct BearingPrediction {
-  Polar polar;            ///< of the component's mean
-  Eigen::Vector2d gain;   ///< P Hᵀ [m rad]
-  double variance = 0.0;  ///< of the innovation: point, pose and sensor [rad²]
-  /// Added to it where the bearing is made use of, for errors that last over looks [rad²].
-  double lasting = 0.0;
+  Polar polar;                ///< of the component's mean
+  Eigen::RowVector2d slope;   ///< H, by the place [rad/m]
+  Eigen::Vector2d gain;       ///< P Hᵀ, and of the shared errors [m rad]
+  double variance = 0.0;      ///< of the innovation: point, pose and sensor [rad²]
+  std::size_t robot = 0;      ///< whose shared errors these are
+  Eigen::RowVector4d shared;  ///< the bearing by its robot's shared errors; 0 where none are [rad]
 };
 
 /// Bearing of a point and its derivatives by point and by pose (x, y, θ).
@@ -68,6 +78,7 @@ struct BearingJacobians {
 BearingJacobians bearingJacobians(const Eigen::Vector2d& point_map,
                                   const geometry::Pose2& T_map_sensor);
 
+/// `sigma` [rad]: of all errors of the sensor. Without what looks share: errors are of this one.
 BearingPrediction predictBearing(const Component& component,
                                  const geometry::UncertainPose2& T_map_sensor, double sigma);
 /// The component after a bearing that differs by `innovation` [rad] from the predicted one, whose

@@ -19,6 +19,7 @@ struct BernoulliFilterConfig {
   double moving_share = 0.0;      ///< of targets that move
   double moving_noise = 5e-3;     ///< of one that moves, as a random walk [m²/s]
   double lifetime = 1e6;          ///< mean time that a target stays [s]
+  double pose_duration = 20.0;    ///< after which a robot's pose has other errors [s]
   double cutoff = 5.0;            ///< a false report costs as much as an error of this length [m]
   double least_existence = 1e-3;  ///< below which a target is given up
 

@@ -7,6 +7,19 @@
 
 namespace sightline::targets {
 
+/// What a bearing says of the offset that all of its look have in common.
+struct Pull {
+  double information = 0.0;  ///< [1/rad²]
+  double moment = 0.0;       ///< that times the offset [1/rad]
+
+  void add(double share, const Pull& other) {
+    information += share * other.information;
+    moment += share * other.moment;
+  }
+};
+/// By the innovation of one place, its variance with that of the offset.
+Pull pullOf(const Look::Innovation& innovation, const Look& look);
+
 /// A target that a look may see, with its weights for every measurement of the look.
 class Candidate {
  public:
@@ -16,6 +29,10 @@ class Candidate {
   double detection() const { return detection_; }  ///< probability where it exists
   /// Weight of being seen as measurement m over that of not being seen, r ∫ p_d g / (1 − r p_d).
   double ratio(std::size_t measurement) const;
+  /// The same where the others have told what the look's bearings have in common.
+  double ratio(std::size_t measurement, const Look::Offset& offset) const;
+  /// What measurement m says of that, if it is this target.
+  Pull pull(std::size_t measurement) const;
   /// The target afterwards, by the marginal probabilities of being each measurement.
   void apply(const Eigen::RowVectorXd& assigned, Bernoulli& bernoulli) const;
 
@@ -34,6 +51,7 @@ class Candidate {
   double detection_ = 0.0;
   std::vector<BearingPrediction> predictions_;  // by component
   std::vector<double> detections_;              // by component, where it exists
+  std::vector<double> heights_;                 // of them by the component's weight: w p_d
   std::vector<double> weights_;                 // of measurement and component: w p_d g
   std::vector<double> sums_;                    // by measurement, over components
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sightline/targets/likelihood_fit.h"
+#include "sightline/targets/shared_error_fit.h"
 #include "sightline/targets/target_tracker_config.h"
 #include "sightline/targets/visibility_fit.h"
 
@@ -41,7 +42,8 @@ struct RobotCharacter {
   double inflation = 1.0;          ///< variance of counts over that of independent looks
   VisibilityConfig visibility;
   double error_inflation = 1.0;  ///< of bearings' errors, as inflationOf
-  double place_sigma = 0.0;      ///< of all robots together, as PlaceFit [m]
+  SharedErrorFit shared;
+  double place_sigma = 0.0;  ///< of all robots together, as PlaceFit [m]
 
   /// The model for filters and simulations.
   SensorModelConfig model() const;

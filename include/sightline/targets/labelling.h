@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -58,7 +59,8 @@ struct LabellingConfig {
   double sigma = geometry::radians(2.25);  ///< [rad]
   double gate = 3.0;                       ///< of errors, in σ (dames section 3.1)
   double bias = 0.0;                       ///< measured less true bearing [rad]
-  double lag = 0.0;  ///< time that looks are stamped late, made good by the turn rate [s]
+  double lag = 0.0;     ///< time that looks are stamped late, made good by the turn rate [s]
+  double jitter = 0.0;  ///< standard deviation of that time [s]
   std::optional<DistortionConfig> distortion;  ///< of the sensor, besides its bias
   LabellingMethod method = LabellingMethod::kOptimal;
   /// Tells targets that a wall hides, which are no misses; none: nothing hides a target.
@@ -66,6 +68,10 @@ struct LabellingConfig {
 
   double biasAt(double bearing) const {
     return bias + (distortion ? distortion->at(bearing) : 0.0);
+  }
+  /// Farthest error of a bearing that is of a target [rad].
+  double gateOf(const KnownLook& look) const {
+    return gate * std::hypot(sigma, jitter * look.turn_rate);
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,7 @@ struct ErrorFit {
   double bias = 0.0;       ///< mean over detections [rad]
   double lag = 0.0;        ///< [s]
   double lag_sigma = 0.0;  ///< standard deviation of the lag [s]
+  double jitter = 0.0;     ///< standard deviation of the lag from look to look [s]
   double tail = 1.0;       ///< standard deviation of all errors over that of the core
   std::size_t used = 0;
   std::optional<DistortionConfig> distortion;  ///< where errors depend on the bearing
@@ -52,10 +54,13 @@ struct ErrorFit {
   double biasAt(double bearing) const {
     return bias + (distortion ? distortion->at(bearing) : 0.0);
   }
+  /// Standard deviation of all errors of a look at that turn rate [rad/s] [rad].
+  double sigmaAt(double turn_rate) const { return std::hypot(sigma * tail, jitter * turn_rate); }
 };
 /// A Gaussian, one 2.5 times as wide and an even background by expectation maximisation, within
 /// `gate` [rad]; bias, lag and distortion by regression of errors on the turn rate and, where that
 /// pays, on three powers of the bearing. Errors are those of labels without bias, lag, distortion.
+/// Where errors grow with the turn rate, stamps jitter: σ is that of a sensor at rest.
 ErrorFit fitErrors(const std::vector<KnownLook>& looks, const std::vector<Opportunity>& labelled,
                    double gate);
 /// The same by labels that know bias and lag better each time: those without draw bearings to the

@@ -68,11 +68,17 @@ struct BearingConfig {
   double bias = 0.0;                           ///< measured less true bearing [rad]
   std::optional<DistortionConfig> distortion;  ///< what the bias is more or less by bearing
   double lag = 0.0;  ///< time that looks are stamped late, by which they err as the robot turns [s]
+  double jitter =
+      0.0;  ///< standard deviation of that time: how much bearings err more in turns [s]
   /// Standard deviation of all errors over σ: filters add a Gaussian 2.5 times as wide, for tails.
   double tail = 1.0;
-  /// Variance of the mean of many bearings of one target over that of independent ones: errors that
-  /// last over looks do not average out.
-  double inflation = 1.0;
+  /// Share of the variance that the bearings of one look have in common, as of a heading that is
+  /// off or a late stamp in a turn [0, 1].
+  double common_share = 0.0;
+  /// Share of the variance that lasts over a robot's looks, part of what these have in common
+  /// [0, 1), and the time constant after which it is forgotten [s].
+  double lasting_share = 0.0;
+  double lasting_duration = 10.0;
   /// Standard deviation, in x and in y, of where a target is from where all bearings see it [m].
   double place_sigma = 0.0;
 

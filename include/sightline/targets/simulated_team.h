@@ -41,9 +41,10 @@ class BearingSampler {
  public:
   BearingSampler(const SensorModel& model, std::uint64_t seed);
 
-  /// `visible` says of each target whether it can be seen at all in this look.
+  /// `visible` says of each target whether it can be seen at all in this look; `lasting` [rad]: the
+  /// error that its robot's looks have in common for a while.
   void sample(const std::vector<Eigen::Vector2d>& targets_map, const std::vector<bool>& visible,
-              SimulatedSet& set);
+              double lasting, SimulatedSet& set);
   /// A clutter bearing, dames eq. 3.
   double clutterBearing();
   /// A number of clutter bearings, Poisson(μ).
@@ -82,6 +83,7 @@ class SimulatedTeam {
     Eigen::Vector2d goal;
     bool is_sent = false;                             // to the goal, by somebody
     Eigen::Vector3d error = Eigen::Vector3d::Zero();  // of the reported pose
+    double lasting = 0.0;                             // error of the sensor that lasts [rad]
     std::vector<bool> visible;                        // by target
     int looks = 0;
   };

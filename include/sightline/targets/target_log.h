@@ -46,7 +46,8 @@ struct TargetScore {
   double mass_error = 0.0;    ///< mean of |expected − true|
   double missed = 0.0;        ///< mean, by GOSPA
   double spurious = 0.0;
-  double nees = 0.0;  ///< mean over pairs within the cut-off, ideal 2
+  double nees = 0.0;    ///< mean over pairs within the cut-off, ideal 2
+  double inside = 0.0;  ///< share of these within their ellipses of 95 %
 };
 
 /// Scores the targets that stand still every `step` [s] of a span of time.

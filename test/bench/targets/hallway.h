@@ -36,6 +36,7 @@ struct HallwayConfig {
   double minutes = 20.0;
   double rate = 2.0;  // looks a second
   int people = 2;
+  std::string world = "hallway_targets.yaml";  // what is seen; ways are those of the hallway
   simulation::BumpConfig bumps{0.21, 0.3, 0.008, 0.2};
 };
 
@@ -49,8 +50,7 @@ class HallwayRun {
         sight_(std::make_shared<targets::WorldSight>(
             world::World::readFile(path("config/worlds/hallway.yaml")), kHeight)),
         actions_(targets::ActionSetConfig{}, sight_),
-        simulation_(world::World::readFile(path("config/worlds/hallway_targets.yaml")),
-                    config.seed),
+        simulation_(world::World::readFile(path("config/worlds/" + config.world)), config.seed),
         random_(config.seed) {
     const geometry::Pose2 starts[] = {{-8.0, 0.0, 0.0}, {6.0, 0.0, 0.0}, {0.0, 8.0, 1.57}};
     for (const geometry::Pose2& start : starts) addRobot(start);

@@ -14,6 +14,7 @@
 #include "figures.h"
 #include "sightline/logs/mrclam.h"
 #include "sightline/targets/target_log.h"
+#include "targets/real_tracker.h"
 #include "temporary_folder.h"
 
 namespace sightline::bench {
@@ -32,6 +33,8 @@ class RealTeam {
                     folder_.path("models"), folder_.path("clean.bag")),
         "characterization.txt");
   }
+
+  std::string models() const { return folder_.path("models/sensor_models.yaml"); }
 
   /// Lines of the report of the characterisation that hold a text.
   int linesWith(const std::string& text) const {
@@ -84,29 +87,33 @@ class RealTeam {
 
 /// Sums of figures over runs.
 struct RealFigures {
+  static constexpr const char* kJitter = "--position-sigma 0.001 --heading-sigma 0.02";
+
   double early = 0.0;
   double late = 0.0;
   double number = 0.0;
   double nees = 0.0;
+  double inside = 0.0;
   double movers = 0.0;
   double offset = 0.0;
 
   void add(RealTeam& team, int seed, double middle = 300.0) {
-    const std::string jitter = "--position-sigma 0.001 --heading-sigma 0.02";
     const std::string off = "--position-sigma 0.05 --heading-sigma 1 --pose-correlation 20";
-    const auto plain = team.track(seed, jitter, "", middle);
+    const auto plain = team.track(seed, kJitter, "", middle);
     early += plain.early.ospa;
     late += plain.late.ospa;
     number += plain.late.number_error;
     nees += plain.late.nees;
+    inside += plain.late.inside;
     const std::string unknown = "  explain_mates: false\n  bernoulli: {moving_share: 0.3}\n";
-    movers += team.track(seed, jitter, unknown, middle).late.ospa;
+    movers += team.track(seed, kJitter, unknown, middle).late.ospa;
     offset += team.track(seed, off, "", middle).late.ospa;
   }
   void show(const std::string& name, const std::string& late_span, double runs) const {
     print(name + ".ospa_mean_" + late_span, late / runs, "m");
     print(name + ".number_error_" + late_span, number / runs, "targets");
-    print(name + ".nees_" + late_span, nees / runs, "1");
+    print(name + ".nees_" + late_span, nees / runs, "of_2");
+    print(name + ".inside_95_" + late_span, 100.0 * inside / runs, "%");
     print(name + ".unknown_movers_" + late_span, movers / runs, "m");
     print(name + ".offset_" + late_span, offset / runs, "m");
   }
@@ -122,6 +129,7 @@ inline void measureReal(const std::string& data, int runs) {
   for (int seed = 1; seed <= runs; ++seed) figures.add(team, seed);
   print("targets.real.ospa_mean_60_300", figures.early / runs, "m");
   figures.show("targets.real", "300_end", runs);
+  measureRealTracker(data, team.models());
 }
 
 /// Time from the first look of any robot to the last one [s].
@@ -143,12 +151,19 @@ inline void measureRealHalves(const std::string& data, int runs) {
   const std::string second = fmt::format("--from {:.3f}", half);
   RealTeam on_second(data, first, second);
   RealTeam on_first(data, second, first);
+  RealTeam whole_on_second(data, "", second);
+  RealTeam whole_on_first(data, "", first);
+  double tuned = 0.0;
   RealFigures figures;
   for (int seed = 1; seed <= runs; ++seed) {
     figures.add(on_second, seed, 200.0);
     figures.add(on_first, seed, 200.0);
+    tuned += whole_on_second.track(seed, RealFigures::kJitter, "", 200.0).late.ospa;
+    tuned += whole_on_first.track(seed, RealFigures::kJitter, "", 200.0).late.ospa;
   }
   figures.show("targets.real.other_half", "200_end", 2.0 * runs);
+  fmt::print("# models of the whole set on the same halves: {:.3f} m\n", tuned / (2.0 * runs));
+  print("targets.real.other_half.ospa_ratio", figures.late / tuned, "1");
 }
 
 }  // namespace sightline::bench

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "sightline/targets/oracle.h"
 #include "sightline/targets/phd_filter.h"
 #include "sightline/targets/simulated_team.h"
+#include "sightline/targets/target_log.h"
 
 namespace sightline::bench {
 
@@ -44,6 +46,7 @@ struct TeamFigures {
   double mass_error = 0.0;    // expected less true, absolute
   double mass_bias = 0.0;
   double us_per_set = 0.0;
+  double particles_per_s = 0.0;  // of a filter that has some
 };
 
 /// `told` is the model that the filter is given; the team's own where there is none.
@@ -53,6 +56,7 @@ inline TeamFigures runTeam(const targets::TeamConfig& config, const FilterMaker&
   TeamFigures figures;
   double busy = 0.0;
   double sets = 0.0;
+  double updates = 0.0;
   const targets::SensorModel model(told ? *told : config.model);
   for (int seed = 0; seed < seeds; ++seed) {
     targets::SimulatedTeam team(config, 1000 + static_cast<std::uint64_t>(seed));
@@ -81,8 +85,11 @@ inline TeamFigures runTeam(const targets::TeamConfig& config, const FilterMaker&
         figures.mass_error += std::abs(mass) / seeds;
       }
     }
+    const auto* phd = dynamic_cast<const targets::PhdFilter*>(filter.get());
+    if (phd != nullptr) updates += static_cast<double>(phd->updates());
   }
   figures.us_per_set = 1e6 * busy / sets;
+  figures.particles_per_s = updates / busy;
   return figures;
 }
 
@@ -114,6 +121,46 @@ inline void measureTeams(int seeds) {
   const TeamFigures phd = runTeam(team, papersFilter(), seeds);
   printTeam("targets.team_phd", phd);
   print("targets.team_phd.us_per_set", phd.us_per_set, "us");
+  print("targets.team_phd.particles_per_s", phd.particles_per_s, "1/s");
+}
+
+/// Whether the covariances of the reported targets hold, from 300 to 600 s.
+inline void measureConsistency(const std::string& name, const targets::TeamConfig& config,
+                               int seeds) {
+  double nees = 0.0;
+  double inside = 0.0;
+  for (int seed = 0; seed < seeds; ++seed) {
+    targets::SimulatedTeam team(config, 2000 + static_cast<std::uint64_t>(seed));
+    const auto filter = defaultFilter()();
+    std::vector<targets::TargetEstimate> estimates;
+    for (int second = 0; second <= 600; ++second) {
+      for (const auto& look : team.step()) filter->update(look.set, team.model());
+      estimates.push_back(filter->estimate());
+    }
+    const auto score = targets::score(estimates, team.targets(), {}, {300.0, 600.0}, 10.0);
+    nees += score.nees / seeds;
+    inside += score.inside / seeds;
+  }
+  print("targets.consistency." + name + ".nees", nees, "of_2");
+  print("targets.consistency." + name + ".inside_95", 100.0 * inside, "%");
+}
+
+/// With errors of each bearing by itself, with poses that are off for 5 to 60 s in a row, which the
+/// filter is not told, and with sensors whose errors are those of the cameras of the real set.
+inline void measureConsistencies(int seeds) {
+  measureConsistency("plain", {}, seeds);
+  for (const double duration : {5.0, 20.0, 60.0}) {
+    targets::TeamConfig off;
+    off.position_sigma = 0.05;
+    off.heading_sigma = geometry::radians(1.0);
+    off.pose_correlation = duration;
+    measureConsistency(fmt::format("offset_{:.0f}s", duration), off, seeds);
+  }
+  targets::TeamConfig lasting;
+  lasting.model.bearing.common_share = 0.5;
+  lasting.model.bearing.lasting_share = 0.3;
+  measureConsistency("lasting", lasting, seeds);
+  printTeam("targets.team_lasting", runTeam(lasting, defaultFilter(), seeds));
 }
 
 inline void measureClutter() {
