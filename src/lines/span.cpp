@@ -38,8 +38,9 @@ double bendBetween(const Span& before, const Span& after) {
 double lengthOf(const BeamArray& beams, const Span& span) {
   constexpr double kLeast = 1e-3;  // m
   const std::size_t last = span.end - 1;
-  return std::max(kLeast, static_cast<double>(std::hypot(beams.x[last] - beams.x[span.first],
-                                                         beams.y[last] - beams.y[span.first])));
+  const float x = beams.x[last] - beams.x[span.first];
+  const float y = beams.y[last] - beams.y[span.first];
+  return std::max(kLeast, static_cast<double>(std::sqrt(x * x + y * y)));
 }
 
 // Weighted mean of the distances of returns from a wall, stray ones apart, and the weight of all:
