@@ -20,7 +20,8 @@ struct ArcFinderConstants {
   double stray_ratio = 0.2;      // of the returns of a run
   double radius_known = 0.5;     // standard deviation of the radius over the radius, at most
   std::size_t few_returns = 24;  // that tell whether to fit a circle to all of a run
-  // Counted: each parameter costs the logarithm of the number of returns (Schwarz 1978).
+  // Counted: each parameter costs the logarithm of the number of returns (Schwarz 1978), or what
+  // chance may gain by it and by a break.
   double arc_parameters = 3.0;
   double line_parameters = 2.0;
 };
@@ -146,6 +147,7 @@ bool ArcFinder::consider(const scan::Scan& scan, const BeamArray& beams, const R
   observe(scan, beams, run, 1);
   const auto fit = fitting::fitArc(observations_, config_.gate);
   if (!fit || !isPlausible(*fit) || !isLikelier(*fit, beams, run, pieces)) return false;
+  if (isBetterDivided(*fit, beams, run, pieces)) return false;
   arcs.push_back(toArc(*fit, scan, beams, run));
   arcs.back().covariance += motionCovariance(scan, beams, run, *fit);
   const auto isChord = [&](const Piece& piece) { return holds(run, piece, beams.revolution); };
@@ -243,6 +245,27 @@ bool ArcFinder::isExplained(const ArcFit& fit) const {
   const double freedom = static_cast<double>(fit.observations()) - kArcs.arc_parameters;
   return fit.chi_square <=
          geometry::chiSquareLimit(config_.gate, freedom) * config_.misfit * config_.misfit;
+}
+
+// Whether several lines explain a run better, with the prices that the scan was divided at
+// (Segmentation), however short they are: what has steps is not round.
+bool ArcFinder::isBetterDivided(const ArcFit& fit, const BeamArray& beams, const Run& run,
+                                const std::vector<Piece>& pieces) const {
+  const auto priceOf = [&](double parameters) {
+    return geometry::chiSquareLimit(config_.gate, parameters + 1.0);
+  };
+  double lines = 0.0;
+  auto loose = static_cast<double>(run.size());
+  std::size_t count = 0;
+  for (const Piece& piece : pieces) {
+    if (runs_.isSureWall(piece.first) || !holds(run, piece, beams.revolution)) continue;
+    lines += piece.chi_square + priceOf(kArcs.line_parameters);
+    loose -= piece.beams;
+    ++count;
+  }
+  const auto strays = static_cast<double>(run.size() - fit.returns);
+  const double arc = fit.chi_square + priceOf(kArcs.arc_parameters) + gate_squared_ * strays;
+  return count > 1 && arc > lines + gate_squared_ * std::max(0.0, loose);
 }
 
 bool ArcFinder::isLikelier(const ArcFit& fit, const BeamArray& beams, const Run& run,

@@ -54,7 +54,7 @@ void Atoms::take(const BeamArray& beams, std::size_t first, std::size_t end,
 
 bool Atoms::isLine(const LineMoments& moments, std::size_t count) const {
   if (count >= limits_.size()) return false;
-  return moments.cost() <= limits_[count];
+  return moments.costsAtMost(limits_[count]);
 }
 
 // All but one return of a whole atom may be of one line: that one is in the half that is none.

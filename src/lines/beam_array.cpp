@@ -101,11 +101,14 @@ void BeamArray::place(const scan::Scan& scan, std::size_t first, std::size_t end
   std::copy_n(sines, count, direction_y.data() + size);
 }
 
+SIGHTLINE_VECTOR_CLONES
 void BeamArray::takeDirections(const std::shared_ptr<const scan::ScanGeometry>& geometry) {
   if (geometry_ && geometry->sharesDirections(*geometry_)) return;
   geometry_ = geometry;
-  cosines_.assign(geometry->cosines().begin(), geometry->cosines().end());
-  sines_.assign(geometry->sines().begin(), geometry->sines().end());
+  cosines_.resize(geometry->beams());
+  sines_.resize(geometry->beams());
+  std::copy(geometry->cosines().begin(), geometry->cosines().end(), cosines_.begin());
+  std::copy(geometry->sines().begin(), geometry->sines().end(), sines_.begin());
 }
 
 void BeamArray::placeMoved(const scan::Scan& scan, std::size_t first, std::size_t end) {

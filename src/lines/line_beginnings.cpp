@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "sightline/lines/packet.h"
 
@@ -39,37 +38,42 @@ void LineBeginnings::push(std::uint32_t atom, double cost_before, const LineMome
   atom_[count_++] = atom;
 }
 
+// Pointers of its own: the compiler would load those of the vectors anew after every store.
 SIGHTLINE_VECTOR_CLONES
 std::size_t LineBeginnings::advance(const LineMoments& moments) {
+  double* const sums[] = {one_.data(), x_.data(), y_.data(), xx_.data(), xy_.data(), yy_.data()};
+  double* const totals = total_.data();
+  const double* const befores = before_.data();
+  const Quad lanes{0.0, 1.0, 2.0, 3.0};
+  Quad least{kHuge, kHuge, kHuge, kHuge};
   for (std::size_t k = 0; k < count_; k += kLanes) {
     Quad one, x, y, xx, xy, yy, before;
-    addTo(one_.data() + k, moments.one, one);
-    addTo(x_.data() + k, moments.x, x);
-    addTo(y_.data() + k, moments.y, y);
-    addTo(xx_.data() + k, moments.xx, xx);
-    addTo(xy_.data() + k, moments.xy, xy);
-    addTo(yy_.data() + k, moments.yy, yy);
-    std::memcpy(&before, before_.data() + k, sizeof(before));
+    addTo(sums[0] + k, moments.one, one);
+    addTo(sums[1] + k, moments.x, x);
+    addTo(sums[2] + k, moments.y, y);
+    addTo(sums[3] + k, moments.xx, xx);
+    addTo(sums[4] + k, moments.xy, xy);
+    addTo(sums[5] + k, moments.yy, yy);
+    std::memcpy(&before, befores + k, sizeof(before));
     const Quad exact = xx * yy - xy * xy;
     const Quad determinant =
         exact > LineMoments::kLeastDeterminant * xx * yy ? exact : exact + kHuge;
     const Quad explained = (yy * x * x - 2.0 * xy * x * y + xx * y * y) / determinant;
     const Quad total = before + (one - explained);
-    std::memcpy(total_.data() + k, &total, sizeof(total));
+    std::memcpy(totals + k, &total, sizeof(total));
+    const Quad counted = lanes < static_cast<double>(count_ - k) ? total : least;
+    least = counted < least ? counted : least;
   }
+  const double lowest = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
   std::size_t best = 0;
-  largest_ = total_[0];
-  for (std::size_t k = 1; k < count_; ++k) {
-    best = total_[k] < total_[best] ? k : best;
-    largest_ = std::max(largest_, total_[k]);
-  }
+  while (totals[best] > lowest && best + 1 < count_) ++best;
   return best;
 }
 
 void LineBeginnings::keepBelow(double limit) {
-  if (largest_ <= limit) return;
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < count_; ++k) {
+  while (kept < count_ && total_[kept] <= limit) ++kept;
+  for (std::size_t k = kept; k < count_; ++k) {
     if (total_[k] <= limit) moveTo(kept++, k);
   }
   count_ = kept;

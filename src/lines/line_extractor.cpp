@@ -14,6 +14,13 @@ namespace {
 // Pieces that something small in front of a wall falls into, at most.
 constexpr std::size_t kMostHiding = 4;
 
+// Chosen, for speed: the part of a full circle that a place to begin is looked for in at first.
+struct SeamConstants {
+  std::size_t parts = 6;
+  std::size_t fewest = 32;  // returns
+};
+constexpr SeamConstants kSeam{};
+
 Piece shifted(const Piece& piece, std::size_t revolution) {
   Piece result = piece;
   for (std::size_t* index :
@@ -70,12 +77,24 @@ void LineExtractor::findPieces(const scan::Scan& scan) {
   sweep_noise_.assign(scan, beams_);
   if (beams_.size > beams_.revolution) {
     // Begin the revolution where a piece ends, so that none is cut by the seam.
-    segmentation_.divide(beams_, 0, beams_.revolution, pieces_);
-    const std::size_t end = pieces_.empty() ? 0 : pieces_.front().end;
-    pieces_.clear();
+    const std::size_t end = endOfOnePiece();
     if (end < beams_.revolution) beams_.assign(scan, beams_.beam[end] % scan.beams());
   }
   segmentation_.divide(beams_, 0, beams_.revolution, pieces_);
+}
+
+// Divides no more than shows one piece, and another one after it.
+std::size_t LineExtractor::endOfOnePiece() {
+  std::size_t part = std::max(kSeam.fewest, beams_.revolution / kSeam.parts);
+  while (true) {
+    part = std::min(part, beams_.revolution);
+    segmentation_.divide(beams_, 0, part, pieces_);
+    const std::size_t end = pieces_.empty() ? 0 : pieces_.front().end;
+    const bool is_known = pieces_.size() > 1 || part == beams_.revolution;
+    pieces_.clear();
+    if (is_known) return end;
+    part *= 2;
+  }
 }
 
 void LineExtractor::refinePieces() {

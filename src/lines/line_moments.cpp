@@ -10,14 +10,14 @@ namespace sightline::lines {
 namespace {
 
 // No return is taken for better known than this [m²].
-constexpr double kLeastVariance = 1e-12;
+constexpr float kLeastVariance = 1e-12F;
 
 }  // namespace
 
 LineEstimate LineMoments::line() const {
   const double ux = yy * x - xy * y;
   const double uy = xx * y - xy * x;
-  const double length = std::hypot(ux, uy);
+  const double length = std::sqrt(ux * ux + uy * uy);  // hypot costs more, for larger numbers
   LineEstimate line;
   if (!(length > 0.0)) return line;
   line.normal_x = ux / length;
@@ -50,12 +50,13 @@ LineMoments momentsOf(const BeamArray& beams, std::size_t first, std::size_t end
   const float* variances = beams.slantVariances();
   Quad one{}, x{}, y{}, xx{}, xy{}, yy{};
   for (std::size_t i = first; i < end; i += kLanes) {
-    Quad px, py, variance, taken;
-    widen(load(beams.x.data() + i), px);
-    widen(load(beams.y.data() + i), py);
-    widen(load(variances + i), variance);
-    widen(firstLanes(end - i), taken);
-    const Quad v = taken * (px * px + py * py) / (variance + kLeastVariance);
+    const Packet narrow_x = load(beams.x.data() + i);
+    const Packet narrow_y = load(beams.y.data() + i);
+    const Packet squared_range = narrow_x * narrow_x + narrow_y * narrow_y;
+    Quad px, py, v;
+    widen(narrow_x, px);
+    widen(narrow_y, py);
+    widen(firstLanes(end - i) * squared_range / (load(variances + i) + kLeastVariance), v);
     const Quad vx = v * px;
     const Quad vy = v * py;
     one += v;
@@ -69,10 +70,13 @@ LineMoments momentsOf(const BeamArray& beams, std::size_t first, std::size_t end
 }
 
 LineMoments momentsOf(const BeamArray& beams, std::size_t of_return) {
-  const auto x = static_cast<double>(beams.x[of_return]);
-  const auto y = static_cast<double>(beams.y[of_return]);
-  const auto variance = static_cast<double>(beams.slantVariances()[of_return]);
-  const double v = (x * x + y * y) / (variance + kLeastVariance);
+  const float narrow_x = beams.x[of_return];
+  const float narrow_y = beams.y[of_return];
+  const float squared_range = narrow_x * narrow_x + narrow_y * narrow_y;
+  const auto v =
+      static_cast<double>(squared_range / (beams.slantVariances()[of_return] + kLeastVariance));
+  const auto x = static_cast<double>(narrow_x);
+  const auto y = static_cast<double>(narrow_y);
   return {v, v * x, v * y, v * x * x, v * x * y, v * y * y};
 }
 

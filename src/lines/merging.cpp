@@ -79,19 +79,35 @@ double Merging::lengthOf(const Piece& piece) const {
   return std::max(kLeast, extent(beams_, piece));
 }
 
+// Whether the returns between two are on the line, but for a stray one here and there: a place that
+// is a line of its own by little, and too short to be a wall, is no gap.
+bool Merging::goesOn(const LineEstimate& line, std::size_t last, std::size_t next) const {
+  const auto gate_squared = static_cast<float>(gate_ * gate_);
+  for (std::size_t i = last + 1; i <= next; ++i) {
+    if (i < next && !isWithin(beams_, i, line, gate_squared)) continue;
+    const double length = positionOn(beams_, i, line) - positionOn(beams_, last, line);
+    if (i - last > 2 || !gap_.mayBridge(beams_, line, last, i, length)) return false;
+    last = i;
+  }
+  return true;
+}
+
 bool Merging::merge(Piece& before, const Piece& after) const {
   const LineEstimate& line = before.line;
   if (line.normal_x * after.line.normal_x + line.normal_y * after.line.normal_y < 0.5) return false;
   const double position = positionOn(beams_, before.end - 1, line);
   const double next_position = positionOn(beams_, after.first, line);
   const double length = next_position - position;
-  if (!gap_.mayBridge(beams_, line, before.end - 1, after.first, length)) return false;
   const double between = 0.5 * (position + next_position);
   if (!mayBeOne(before, after, between, length)) return false;
   Piece joined = before;
   joined.end = after.end;
   joined.beams = 0.0;  // to be refined in full
   stepTo(fusion(line, after.line, between), joined.line);
+  if (!gap_.mayBridge(beams_, line, before.end - 1, after.first, length) &&
+      !goesOn(joined.line, before.end - 1, after.first)) {
+    return false;
+  }
   if (!refine(beams_, gate_ * gate_, joined)) return false;
   if (joined.chi_square >
       geometry::chiSquareLimit(gate_, joined.beams - 2.0) * chi_square_ratio_ * chi_square_ratio_)

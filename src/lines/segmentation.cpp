@@ -21,8 +21,9 @@ void Segmentation::divide(const BeamArray& beams, std::size_t first, std::size_t
   breaks_.assign(atoms_, beams);
   findBest();
   trace();
-  join();
+  join(breaks_.price(), &SpanBreaks::apart);
   shareOutFragments();
+  join(1.0, &SpanBreaks::misfit);
   for (std::size_t i = 0; i + 1 < spans_.size(); ++i) breaks_.settle(spans_[i], spans_[i + 1]);
   for (const Span& span : spans_) {
     Piece piece;
@@ -61,6 +62,9 @@ void Segmentation::takeAtom(std::size_t atom) {
 }
 
 void Segmentation::begin(std::size_t atom) {
+  if (pendings_ == 0 && atoms_.beginOf(atom + 1) - atoms_.beginOf(atom) >= kFewest) {
+    return beginnings_.push(static_cast<std::uint32_t>(atom), least_[atom], {});
+  }
   pending_[pendings_++] = {static_cast<std::uint32_t>(atom), least_[atom], {}};
   std::size_t kept = 0;
   for (std::size_t k = 0; k < pendings_; ++k) {
@@ -93,13 +97,13 @@ void Segmentation::trace() {
 }
 
 // Joins the likeliest first, so that no wall depends on the side that it is come to from.
-void Segmentation::join() {
-  const auto apartAt = [&](std::size_t i) { return breaks_.apart(spans_[i], spans_[i + 1]); };
+void Segmentation::join(double limit, Measure measure) {
+  const auto apartAt = [&](std::size_t i) { return (breaks_.*measure)(spans_[i], spans_[i + 1]); };
   apart_.clear();
   for (std::size_t i = 0; i + 1 < spans_.size(); ++i) apart_.push_back(apartAt(i));
   while (!apart_.empty()) {
     const auto least = std::min_element(apart_.begin(), apart_.end());
-    if (*least >= breaks_.price()) return;
+    if (*least >= limit) return;
     const auto i = static_cast<std::size_t>(least - apart_.begin());
     spans_[i] = joined(spans_[i], spans_[i + 1]);
     spans_.erase(spans_.begin() + (least - apart_.begin()) + 1);

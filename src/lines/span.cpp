@@ -18,6 +18,8 @@ struct SpanConstants {
   std::size_t fewest = 5;
   // Counted: a line of its own has a distance, a direction and a break.
   double line_freedom = 3.0;
+  // Walls that meet are built at more than this; less is one that is uneven [sine].
+  double least_bend = 0.1;
   // Lines that meet at more than this need no help to find where [sine].
   double most_bend = 0.6;
   // Chosen: atoms that a break may move by, and of a span that may be no more than a corner.
@@ -36,8 +38,9 @@ double bendBetween(const Span& before, const Span& after) {
 double lengthOf(const BeamArray& beams, const Span& span) {
   constexpr double kLeast = 1e-3;  // m
   const std::size_t last = span.end - 1;
-  return std::max(kLeast, static_cast<double>(std::hypot(beams.x[last] - beams.x[span.first],
-                                                         beams.y[last] - beams.y[span.first])));
+  const float x = beams.x[last] - beams.x[span.first];
+  const float y = beams.y[last] - beams.y[span.first];
+  return std::max(kLeast, static_cast<double>(std::sqrt(x * x + y * y)));
 }
 
 // Weighted mean of the distances of returns from a wall, stray ones apart, and the weight of all:
@@ -85,7 +88,8 @@ struct SpanBreaks::Break {
 };
 
 SpanBreaks::SpanBreaks(const LineExtractorConfig& config)
-    : price_(geometry::chiSquareLimit(config.gate, kSpan.line_freedom)),
+    : config_(config),
+      price_(geometry::chiSquareLimit(config.gate, kSpan.line_freedom)),
       stray_price_(config.gate * config.gate) {}
 
 void SpanBreaks::assign(const Atoms& atoms, const BeamArray& beams) {
@@ -97,11 +101,21 @@ bool SpanBreaks::adjoin(const Span& before, const Span& after) const {
   return before.end == after.first && !(*atoms_)[after.first_atom].is_cut;
 }
 
-// Walls one behind the other share no corner: their distance counts no more than a stray return.
 double SpanBreaks::costOf(const Break& of) const {
-  return of.before.cost() + of.after.cost() +
-         std::min(stray_price_, apartSquared(of.before, of.after, beams_->direction(of.at - 1),
+  return of.before.cost() + of.after.cost() + costOfMeeting(of);
+}
+
+// Walls one behind the other share no corner: their distance counts no more than a stray return.
+double SpanBreaks::costOfMeeting(const Break& of) const {
+  return std::min(stray_price_, apartSquared(of.before, of.after, beams_->direction(of.at - 1),
                                              beams_->direction(of.at)));
+}
+
+void SpanBreaks::look(Break& found, Break& best) const {
+  found.cost = found.before.cost() + found.after.cost();
+  if (found.cost >= best.cost) return;  // for speed: where they meet costs more, if anything
+  found.cost += costOfMeeting(found);
+  if (found.cost < best.cost) best = found;
 }
 
 void SpanBreaks::settle(Span& before, Span& after) const {
@@ -124,8 +138,7 @@ void SpanBreaks::settleOnAtoms(const Span& before, const Span& after, Break& bes
   const auto isAllowed = [&](Break& found) {
     found.at = atoms_->beginOf(found.atom);
     if (found.at < before.first + kSpan.fewest || found.at + kSpan.fewest > after.end) return false;
-    found.cost = costOf(found);
-    if (found.cost < best.cost) best = found;
+    look(found, best);
     return true;
   };
   Break found = start;
@@ -146,21 +159,17 @@ void SpanBreaks::settleWithin(const Span& before, const Span& after, Break& best
   const std::size_t low =
       std::max(atoms_->beginOf(start.atom - 1) + 1, before.first + kSpan.fewest);
   const std::size_t high = std::min(atoms_->beginOf(start.atom + 1), after.end + 1 - kSpan.fewest);
-  const auto look = [&](Break& found) {
-    found.cost = costOf(found);
-    if (found.cost < best.cost) best = found;
-  };
   Break found = start;
   while (found.at > low) {
     --found.at;
     found.giveBack(atoms_->momentsOf(*beams_, start.atom - 1, found.at));
-    look(found);
+    look(found, best);
   }
   found = start;
   while (found.at + 1 < high) {
     found.takeOver(atoms_->momentsOf(*beams_, start.atom, found.at));
     ++found.at;
-    look(found);
+    look(found, best);
   }
 }
 
@@ -188,6 +197,28 @@ double SpanBreaks::apart(const Span& before, const Span& after) const {
       shape_.difference(lengthOf(*beams_, before), lengthOf(*beams_, after), 0.0);
   const double squared = difference.dot(covariance.inverse() * difference);
   return squared >= 0.0 ? squared : kNever;  // what is not determined is no number
+}
+
+bool SpanBreaks::isShort(const Span& span) const {
+  return static_cast<double>(span.end - span.first) < config_.min_beams ||
+         lengthOf(*beams_, span) < config_.min_length;
+}
+
+double SpanBreaks::misfit(const Span& before, const Span& after) const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (!adjoin(before, after)) return kNever;
+  const bool are_short[] = {isShort(before), isShort(after)};
+  if (!are_short[0] && !are_short[1]) return kNever;
+  if (std::abs(bendBetween(before, after)) > kSpan.least_bend) return kNever;
+  const LineEstimate wall = joined(before, after).moments.line();
+  if (!(wall.rho > 0.0)) return kNever;
+  const bool is_wall = !are_short[0] || !are_short[1];
+  const double most = is_wall ? config_.misfit * config_.misfit : 1.0;
+  const auto ratio = [&](const Span& span) {
+    const auto returns = static_cast<double>(span.end - span.first);
+    return span.moments.costAbout(wall) / (most * geometry::chiSquareLimit(config_.gate, returns));
+  };
+  return std::max(ratio(before), ratio(after));
 }
 
 // Squared step from the last returns before a break to the first after it, in standard deviations:

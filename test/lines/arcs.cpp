@@ -70,6 +70,23 @@ TEST(Arcs, StandBeforeAWall) {
   }
 }
 
+// Four boards of one width, each set back from its neighbours.
+TEST(Arcs, StepsAreNone) {
+  Gauss gauss(59);
+  ScanOf of;
+  const double set_back[] = {0.05, 0.0, 0.0, 0.05};
+  for (int k = 0; k < 4; ++k) {
+    const double from = -0.32 + 0.16 * k;
+    of.walls.push_back({{from, 2.0 + set_back[k]}, {from + 0.16, 2.0 + set_back[k]}});
+  }
+  of.noise.sigma = 0.01;
+  for (int i = 0; i < 50; ++i) {
+    LineExtractor extractor;
+    extractor.extract(of.take(gauss));
+    EXPECT_TRUE(extractor.arcs().empty());
+  }
+}
+
 // Residuals of a wall that is not straight leave room for doubt.
 TEST(Arcs, TakeNoWallThatGoesOnBehindThem) {
   Gauss gauss(58);

@@ -31,6 +31,20 @@ TEST(LineMoments, TellTheLineOfAnyRun) {
               1e-9 * ahead.one);
 }
 
+TEST(LineMoments, TellTheCostOfAnyLine) {
+  const SmallScan scan = test::cornerScan();
+  const LineMoments all = momentsOf(scan.beams, 0, scan.beams.revolution);
+  LineEstimate line = all.line();
+  EXPECT_NEAR(all.costAbout(line), all.cost(), 1e-6 * all.one);
+  line.rho += 0.1;
+  EXPECT_GT(all.costAbout(line), all.cost());
+  EXPECT_TRUE(all.costsAtMost(1.01 * all.cost()));
+  EXPECT_FALSE(all.costsAtMost(0.99 * all.cost()));
+  const LineMoments one = momentsOf(scan.beams, 3);
+  EXPECT_TRUE(one.costsAtMost(one.one)) << "one return determines no line";
+  EXPECT_FALSE(one.costsAtMost(0.5 * one.one));
+}
+
 TEST(LineMomentsStatistics, TheirCostIsChiSquare) {
   Gauss gauss(1);
   BeamArray beams;

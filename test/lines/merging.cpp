@@ -31,13 +31,27 @@ TEST(Merging, PartsOfAWallBecomeOne) {
 }
 
 TEST(Merging, WallsBeyondTheGapLimitStayApart) {
-  SmallScan scan(test::wallAhead(2.0, -1.0, 2.0));
+  test::ScanOf of = test::wallAhead(2.0, -1.0, 2.0);
+  of.walls = {{{0.53, 2.0}, {2.0, 2.0}}, {{-1.0, 2.0}, {0.177, 2.0}}};
+  SmallScan scan(of);
   Piece before = scan.piece(200, 300, test::kLineAhead);
   const Piece after = scan.piece(340, 400, test::kLineAhead);  // 0.35 m on
   EXPECT_FALSE(Merging(scan.beams, scan.noise, scan.config).merge(before, after));
   EXPECT_EQ(before.end, scan.at(300));
   scan.config.max_gap = 0.4;
   EXPECT_TRUE(Merging(scan.beams, scan.noise, scan.config).merge(before, after));
+}
+
+TEST(Merging, AShallowPlaceBetweenIsNoGap) {
+  for (const double depth : {0.02, 0.1}) {
+    test::ScanOf of = test::wallAhead(2.0, 0.53, 2.0);
+    of.walls.push_back({{0.177, 2.0 + depth}, {0.53, 2.0 + depth}});
+    of.walls.push_back({{-1.0, 2.0}, {0.177, 2.0}});
+    SmallScan scan(of);
+    Piece before = scan.piece(200, 300, test::kLineAhead);
+    const Piece after = scan.piece(341, 400, test::kLineAhead);
+    EXPECT_EQ(Merging(scan.beams, scan.noise, scan.config).merge(before, after), depth < 0.05);
+  }
 }
 
 TEST(Merging, StepOfAWallIsTwoWalls) {

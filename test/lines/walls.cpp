@@ -54,6 +54,25 @@ TEST(Walls, MissingReturnsInterruptThemBeyondTheGapLimit) {
   }
 }
 
+// A pane of 1.5 m that nothing comes back from, seen at a grazing angle by four beams.
+TEST(Walls, APaneSeenByFewBeamsInterruptsThem) {
+  ScanOf of = test::wallAhead(0.5, 0.0, 3.0);
+  of.walls.push_back({{4.5, 0.5}, {16.0, 0.5}});
+  of.angle_increment = geometry::radians(0.7);
+  of.beams = 258;
+  LineExtractorConfig config;
+  config.min_beams = 3;
+  config.min_length = 0.1;
+  scan::Scan scan = of.takeWithoutNoise();
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    const double x = 0.5 / std::tan(scan.geometry()->angles()[i]);
+    if (x > 3.0 && x < 4.5) ++lost;
+  }
+  ASSERT_EQ(lost, 4U);
+  EXPECT_EQ(LineExtractor(config).extract(scan).size(), 2U);
+}
+
 TEST(Walls, AnOpeningSeparatesThem) {
   Gauss gauss(33);
   ScanOf of = test::wallAhead(2.0, -2.0, -0.5);

@@ -18,9 +18,9 @@ namespace sightline::lines {
 /// Pillars, legs and curved walls.
 ///
 /// Every run of returns that may be round is fitted with a circle. The circle stands where it is
-/// the likelier explanation: where it costs less than lines do, each parameter counted as by
-/// Schwarz (1978). Where the run ends because the beams pass by, the rays that graze the circle are
-/// observations of it, too.
+/// the likelier explanation: where it costs less than a line does, each parameter counted as by
+/// Schwarz (1978), and less than several lines at the prices of Segmentation. Where the run ends
+/// because the beams pass by, the rays that graze the circle are observations of it, too.
 class ArcFinder {
  public:
   explicit ArcFinder(const LineExtractorConfig& config);
@@ -40,6 +40,8 @@ class ArcFinder {
                                    const fitting::ArcFit& fit);
   bool isExplained(const fitting::ArcFit& fit) const;
   bool isPlausible(const fitting::ArcFit& fit) const;
+  bool isBetterDivided(const fitting::ArcFit& fit, const BeamArray& beams, const Run& run,
+                       const std::vector<Piece>& pieces) const;
   bool isLikelier(const fitting::ArcFit& fit, const BeamArray& beams, const Run& run,
                   const std::vector<Piece>& pieces) const;
 

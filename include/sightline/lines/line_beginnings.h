@@ -32,7 +32,6 @@ class LineBeginnings {
   std::vector<double> before_, one_, x_, y_, xx_, xy_, yy_, total_;
   std::vector<std::uint32_t> atom_;
   std::size_t count_ = 0;
-  double largest_ = 0.0;  // of the totals
 };
 
 }  // namespace sightline::lines

@@ -37,6 +37,7 @@ class LineExtractor {
  private:
   void reserve(std::size_t beams);
   void findPieces(const scan::Scan& scan);
+  std::size_t endOfOnePiece();
   void refinePieces();
   void mergePieces();
   std::size_t mergeWithOneFrom(std::size_t first, const Merging& merging, Piece& wall) const;

@@ -47,6 +47,18 @@ struct LineMoments {
     if (!(determinant > kLeastDeterminant * xx * yy)) return one;
     return std::max(0.0, one - (yy * x * x - 2.0 * xy * x * y + xx * y * y) / determinant);
   }
+  /// Whether cost() is no more than a limit, without a division.
+  bool costsAtMost(double limit) const {
+    const double determinant = xx * yy - xy * xy;
+    if (!(determinant > kLeastDeterminant * xx * yy)) return one <= limit;
+    return (one - limit) * determinant <= yy * x * x - 2.0 * xy * x * y + xx * y * y;
+  }
+  /// χ² about a line, which must not go through the origin.
+  double costAbout(const LineEstimate& line) const {
+    const double ux = line.normal_x / line.rho;
+    const double uy = line.normal_y / line.rho;
+    return one - 2.0 * (ux * x + uy * y) + ux * ux * xx + 2.0 * ux * uy * xy + uy * uy * yy;
+  }
   /// Σ v p.
   Eigen::Vector2d first() const { return {x, y}; }
   /// Of u: the inverse of Σ v p pᵀ, which has to be determined.

@@ -28,6 +28,7 @@ class Merging {
 
  private:
   bool mayBeOne(const Piece& before, const Piece& after, double position, double gap) const;
+  bool goesOn(const LineEstimate& line, std::size_t last, std::size_t next) const;
   double lengthOf(const Piece& piece) const;
 
   const BeamArray& beams_;

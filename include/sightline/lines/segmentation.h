@@ -41,11 +41,14 @@ class Segmentation {
     LineMoments moments;
   };
 
+  /// How far two spans are from being one.
+  using Measure = double (SpanBreaks::*)(const Span&, const Span&) const;
+
   void findBest();
   void begin(std::size_t atom);
   void takeAtom(std::size_t atom);
   void trace();
-  void join();
+  void join(double limit, Measure measure);
   void shareOutFragments();
 
   Atoms atoms_;

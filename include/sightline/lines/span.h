@@ -49,6 +49,10 @@ class SpanBreaks {
   /// and the unevenness of walls make of it: they are one where it is below the price of a line.
   /// Infinite where they do not adjoin.
   double apart(const Span& before, const Span& after) const;
+  /// What two spans that adjoin leave about one line for both, over the most that a wall may: below
+  /// 1, one that is too short for a wall is an uneven place of the other. Two that are too short
+  /// may leave what the noise does, and no more. Infinite where neither is short, or they bend.
+  double misfit(const Span& before, const Span& after) const;
   /// Whether a short span is no more than the corner of its neighbours: gives it to the first then,
   /// with the break to be settled.
   bool shareOut(Span& before, const Span& fragment, const Span& after) const;
@@ -56,11 +60,15 @@ class SpanBreaks {
  private:
   struct Break;
 
+  bool isShort(const Span& span) const;
   double stepSquared(const Span& before, const Span& after, const LineEstimate& wall) const;
   void settleOnAtoms(const Span& before, const Span& after, Break& best) const;
   void settleWithin(const Span& before, const Span& after, Break& best) const;
   double costOf(const Break& of) const;
+  double costOfMeeting(const Break& of) const;
+  void look(Break& found, Break& best) const;
 
+  LineExtractorConfig config_;
   double price_;
   double stray_price_;
   WallShape shape_;
