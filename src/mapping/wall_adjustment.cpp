@@ -103,6 +103,7 @@ class WallProblem {
   void store(AdjustedPath& path, std::vector<RoomOutline>& rooms) const {
     path.keys = path_.poses();
     path.wheel_scale = path_.wheelScale();
+    path.wheel_turn = path_.wheelTurn();
     for (std::size_t r = 0; r < rooms.size(); ++r) {
       for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
         SideLine& side = rooms[r].sides[i];

@@ -15,6 +15,7 @@
 #include "sightline/mapping/replay.h"
 #include "sightline/mapping/room_fitter.h"
 #include "sightline/mapping/room_merge.h"
+#include "sightline/mapping/wheel_fit.h"
 
 namespace {
 
@@ -164,7 +165,9 @@ int fitRecording(const Job& job) {
   writeAll(job, result, std::move(drawing));
   if (!config.rooms) config.rooms.emplace();
   config.rooms->map = job.out;
-  mapping::Replay replay(config, result.fitted.poses, mapping::odometryOf(survey));
+  const auto wheels = mapping::fitWheels(survey, result.fitted.poses);
+  mapping::Replay replay(mapping::withWheels(config, wheels), result.fitted.poses,
+                         mapping::odometryOf(survey));
   tools::readBags(
       job.in, config, [&](pipeline::LocatedScan scan) { replay.take(std::move(scan)); },
       part(bar, 0.8, 1.0));
