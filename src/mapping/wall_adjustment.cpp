@@ -33,7 +33,7 @@ constexpr struct {
   double loss = 2.0;
   // Ratio of the variances to those that the residuals tell, as errors of neighbouring scans go
   // together: by NEES on floors 101 to 108 of the benchmark, which prints others.
-  double calibration = 1.5;
+  double calibration = 1.8;
 } kWalls{};
 
 /// Distance of two points of a key scan from a side.

@@ -64,6 +64,22 @@ void printPath(const mapping::Survey& survey, const mapping::FittedRooms& fitted
   }
 }
 
+// As settings of the tracker: what the replay took for known.
+void printWheels(const std::optional<motion::OdometryFit>& wheels) {
+  if (!wheels) return;
+  std::printf("odometry: {");
+  const char* before = "";
+  const auto print = [&](const char* name, const motion::FittedError& error) {
+    if (!error.is_known) return;
+    std::printf("%s%s: %.5f", before, name, error.value);
+    before = ", ";
+  };
+  print("scale_mean", wheels->scale);
+  print("steering_bias", wheels->steering);
+  print("heading_bias_per_metre", wheels->heading);
+  std::printf("}\n");
+}
+
 void printRooms(const mapping::FittedRooms& fitted) {
   std::printf("rooms: %zu, with %zu doors; %.1f %% of the path lies in them\n", fitted.rooms.size(),
               fitted.doors.size(), 100.0 * fitted.inside);
@@ -177,6 +193,7 @@ int fitRecording(const Job& job) {
   printRooms(result.fitted);
   const auto& start = result.fitted.poses.front().pose;
   std::printf("initial_pose: [%.4f, %.4f, %.4f]\n", start.x(), start.y(), start.theta());
+  printWheels(wheels);
   return judge(replay);
 }
 
