@@ -125,6 +125,7 @@ void PathAdjuster::solve() {
   poses_ = solution.poses;
   cost_ = solution.relation_cost;
   result_.wheel_scale = solution.wheel_scale;
+  result_.wheel_turn = solution.wheel_turn;
   scans_.forget();
   unsolved_ = 0;
 }

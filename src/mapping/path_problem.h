@@ -29,6 +29,7 @@ class PathProblem {
   double* pose(std::size_t key) { return values_[key].data(); }
   std::vector<geometry::Pose2> poses() const;
   double wheelScale() const { return scale_; }
+  double wheelTurn() const { return turn_; }
   std::size_t relations() const { return relations_.size(); }
   /// Squared Mahalanobis distance of each relation.
   std::vector<double> relationCosts();
@@ -40,6 +41,7 @@ class PathProblem {
   const std::vector<KeyScan>& keys_;
   std::vector<std::array<double, 3>> values_;
   double scale_ = 1.0;
+  double turn_ = 0.0;
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> relations_;
 };

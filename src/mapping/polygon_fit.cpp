@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 #include "sightline/world/room_map.h"
 
 namespace sightline::mapping {
@@ -29,6 +31,7 @@ struct Piece {
   Spot along = Spot::UnitX();
   Spot middle = Spot::Zero();
   double bend = 0.0;
+  double curvature = 0.0;
 
   double length() const { return along.dot(end - start); }
   Spot inwards() const { return {-along.y(), along.x()}; }
@@ -39,7 +42,20 @@ struct Piece {
 };
 
 Piece chord(const Spot& start, const Spot& end) {
-  return {start, end, {}, (end - start).normalized(), 0.5 * (start + end), 0.0};
+  return {start, end, {}, (end - start).normalized(), 0.5 * (start + end)};
+}
+
+// Curvature of points along a line, of the parabola through them.
+double curvatureOf(const Piece& piece) {
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Identity() * 1e-9;
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();
+  for (const Spot& p : piece.points) {
+    const double at = piece.along.dot(p - piece.middle);
+    const Eigen::Vector3d powers(1.0, at, at * at);
+    squares += powers * powers.transpose();
+    products += piece.inwards().dot(p - piece.middle) * powers;
+  }
+  return 2.0 * squares.ldlt().solve(products)[2];
 }
 
 // The line that fits the points best, from the first to the last of them.
@@ -60,6 +76,7 @@ Piece lineThrough(std::vector<Spot> points) {
   piece.end = mean + along.dot(points.back() - mean) * along;
   piece.bend = std::sqrt(std::max(0.0, piece.inwards().dot(scatter * piece.inwards())));
   piece.points = std::move(points);
+  piece.curvature = curvatureOf(piece);
   return piece;
 }
 
@@ -213,6 +230,7 @@ RoomOutline roomOf(const Pieces& pieces) {
     side.angle = std::atan2(piece.inwards().y(), piece.inwards().x());
     side.distance = side.normal().dot(piece.middle - room.anchor);
     side.bend = piece.bend;
+    side.curvature = piece.curvature;
     room.sides.push_back(side);
   }
   room.spans.resize(room.sides.size());

@@ -47,14 +47,16 @@ class StepFactor {
   Eigen::Matrix3d root_;
 };
 
-/// The same of a step by wheels, whose length is to be scaled.
+/// The same of a step by wheels, whose length is to be scaled, and which turn unnoticed by so much
+/// a metre.
 class WheelFactor {
  public:
   WheelFactor(const geometry::Pose2& step, const Eigen::Matrix3d& root)
       : step_(step.coordinates()), root_(root) {}
   template <class T>
-  bool operator()(const T* a, const T* b, const T* scale, T* residual) const {
-    const Eigen::Matrix<T, 3, 1> expected(scale[0] * step_[0], scale[0] * step_[1], T(step_[2]));
+  bool operator()(const T* a, const T* b, const T* scale, const T* turn, T* residual) const {
+    const Eigen::Matrix<T, 3, 1> expected(scale[0] * step_[0], scale[0] * step_[1],
+                                          step_[2] + turn[0] * step_.head<2>().norm());
     Eigen::Map<Eigen::Matrix<T, 3, 1>> out(residual);
     out = root_.cast<T>() * stepDifference<T>(a, b, expected);
     return true;

@@ -119,11 +119,13 @@ bool isRoom(const RoomOutline& room) {
 world::WallSigma sigmaOf(const RoomOutline& room, std::size_t i) {
   const auto rectangle = rectangleOf(room);
   const double right = 0.5 * geometry::kPi * (static_cast<double>(i) + 1.0);
-  const double bend =
+  const double left_out =
       rectangle ? geometry::wrapAngle(room.sides[i].angle - rectangle->pose.theta() - right) : 0.0;
+  // Whatever stretch of an arc is seen has its own direction.
+  const double arc = std::abs(room.sides[i].curvature) * room.side(i).length() / std::sqrt(12.0);
   const Eigen::Matrix2d& covariance = room.sides[i].covariance;
   const double position = std::hypot(std::sqrt(covariance(0, 0)), room.sides[i].bend);
-  const double direction = std::hypot(std::sqrt(covariance(1, 1)), bend);
+  const double direction = std::hypot(std::sqrt(covariance(1, 1)), left_out, arc);
   const auto within = [](const config::Range& range, double value) {
     return std::clamp(value, range.min, range.max);
   };

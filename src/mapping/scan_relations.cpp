@@ -81,7 +81,10 @@ std::shared_ptr<const ScanRelations::Matcher> ScanRelations::reference(std::size
   MatchOutcome taken;
   taken.state = MatchState::kMatched;
   for (std::size_t i = first; i <= last; ++i) {
-    matcher->learn(keys_[i].surfaces, geometry::between(poses_[centre], poses_[i]), taken);
+    // By dead reckoning, which is the better over such a short way: by the adjusted poses, a
+    // stretch of path that was once pulled long would go on to say that it is.
+    const Pose2 T_centre_key = geometry::between(keys_[centre].T_odom_base, keys_[i].T_odom_base);
+    matcher->learn(keys_[i].surfaces, T_centre_key, taken);
   }
   return matcher;
 }

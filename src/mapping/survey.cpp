@@ -17,6 +17,10 @@ constexpr struct {
   std::size_t most_misses = 90;
 } kSurvey;
 
+const std::optional<Pose2>& byWheels(const pipeline::LocatedScan& located) {
+  return located.T_path_base ? located.T_path_base : located.T_odom_base;
+}
+
 std::vector<Eigen::Vector2d> missesOf(const scan::Scan& scan, const Pose2& T_base_sensor) {
   std::vector<Eigen::Vector2d> ends;
   const std::size_t stride = scan.beams() / kSurvey.most_misses + 1;
@@ -42,7 +46,8 @@ void Survey::take(pipeline::LocatedScan located) {
   advance(*estimates.odometry);
   const Pose2& T_odom_base = estimates.odometry->pose.mean;
   if (isNew(T_odom_base)) addKey(estimates.located, T_odom_base);
-  path_.push_back({estimates.odometry->stamp, T_odom_base, keys_.size() - 1});
+  path_.push_back({estimates.odometry->stamp, T_odom_base, keys_.size() - 1,
+                   byWheels(estimates.located), estimates.located.odometry_broke});
 }
 
 void Survey::advance(const dead_reckoning::DeadReckoningUpdate& update) {
@@ -75,7 +80,7 @@ void Survey::addKey(const pipeline::LocatedScan& located, const Pose2& T_odom_ba
 std::optional<Pose2> Survey::wheelStep(const pipeline::LocatedScan& located) {
   const auto before = T_wheels_key_;
   const bool broke = wheels_broke_;
-  T_wheels_key_ = located.T_path_base ? located.T_path_base : located.T_odom_base;
+  T_wheels_key_ = byWheels(located);
   wheels_broke_ = false;
   if (!before || !T_wheels_key_ || broke) return std::nullopt;
   return geometry::between(*before, *T_wheels_key_);

@@ -33,7 +33,7 @@ constexpr struct {
   double loss = 2.0;
   // Ratio of the variances to those that the residuals tell, as errors of neighbouring scans go
   // together: by NEES on floors 101 to 108 of the benchmark, which prints others.
-  double calibration = 1.5;
+  double calibration = 1.8;
 } kWalls{};
 
 /// Distance of two points of a key scan from a side.
@@ -103,6 +103,7 @@ class WallProblem {
   void store(AdjustedPath& path, std::vector<RoomOutline>& rooms) const {
     path.keys = path_.poses();
     path.wheel_scale = path_.wheelScale();
+    path.wheel_turn = path_.wheelTurn();
     for (std::size_t r = 0; r < rooms.size(); ++r) {
       for (std::size_t i = 0; i < rooms[r].sides.size(); ++i) {
         SideLine& side = rooms[r].sides[i];

@@ -15,6 +15,7 @@
 #include "sightline/mapping/replay.h"
 #include "sightline/mapping/room_fitter.h"
 #include "sightline/mapping/room_merge.h"
+#include "sightline/mapping/wheel_fit.h"
 
 namespace {
 
@@ -61,6 +62,22 @@ void printPath(const mapping::Survey& survey, const mapping::FittedRooms& fitted
     std::printf("warning: bridged: %zu scans matched nothing, their poses are by odometry\n",
                 survey.bridged());
   }
+}
+
+// As settings of the tracker: what the replay took for known.
+void printWheels(const std::optional<motion::OdometryFit>& wheels) {
+  if (!wheels) return;
+  std::printf("odometry: {");
+  const char* before = "";
+  const auto print = [&](const char* name, const motion::FittedError& error) {
+    if (!error.is_known) return;
+    std::printf("%s%s: %.5f", before, name, error.value);
+    before = ", ";
+  };
+  print("scale_mean", wheels->scale);
+  print("steering_bias", wheels->steering);
+  print("heading_bias_per_metre", wheels->heading);
+  std::printf("}\n");
 }
 
 void printRooms(const mapping::FittedRooms& fitted) {
@@ -164,7 +181,9 @@ int fitRecording(const Job& job) {
   writeAll(job, result, std::move(drawing));
   if (!config.rooms) config.rooms.emplace();
   config.rooms->map = job.out;
-  mapping::Replay replay(config, result.fitted.poses, mapping::odometryOf(survey));
+  const auto wheels = mapping::fitWheels(survey, result.fitted.poses);
+  mapping::Replay replay(mapping::withWheels(config, wheels), result.fitted.poses,
+                         mapping::odometryOf(survey));
   tools::readBags(
       job.in, config, [&](pipeline::LocatedScan scan) { replay.take(std::move(scan)); },
       part(bar, 0.8, 1.0));
@@ -174,6 +193,7 @@ int fitRecording(const Job& job) {
   printRooms(result.fitted);
   const auto& start = result.fitted.poses.front().pose;
   std::printf("initial_pose: [%.4f, %.4f, %.4f]\n", start.x(), start.y(), start.theta());
+  printWheels(wheels);
   return judge(replay);
 }
 

@@ -3,6 +3,8 @@
 #include "mapped_floor.h"
 #include "sightline/config/node.h"
 #include "sightline/geometry/angle.h"
+#include "sightline/mapping/replay.h"
+#include "temporary_folder.h"
 
 namespace sightline::mapping {
 namespace {
@@ -127,6 +129,35 @@ TEST_F(FittedRoomsTest, TellHowWellATrackerKnowsTheirWalls) {
       EXPECT_LT(wall.sigma->position, 0.01);
     }
   }
+}
+
+// Wheels that are first heard of after the first scans, and count from elsewhere.
+TEST_F(FittedRoomsTest, AreKeptWhereTheFirstScansHaveNoWheels) {
+  const geometry::Pose2 T_wheels_odom(5.0, 3.0, 2.0);
+  const auto readLate = [&](auto take) {
+    std::size_t scans = 0;
+    test::readDrive(drive_, {}, /*with_wheels=*/true, [&](pipeline::LocatedScan located) {
+      for (auto* odometry : {&located.T_odom_base, &located.T_path_base}) {
+        if (scans < 3) odometry->reset();
+        if (*odometry) *odometry = T_wheels_odom * **odometry;
+      }
+      ++scans;
+      take(std::move(located));
+    });
+  };
+  Survey survey{pipeline::EstimatorsConfig()};
+  readLate([&](pipeline::LocatedScan located) { survey.take(std::move(located)); });
+  const FittedRooms fitted = fitRooms(survey, {});
+  const test::TemporaryFolder folder;
+  folder.write("rooms.yaml", roomsText(fitted));
+  pipeline::EstimatorsConfig config;
+  config.rooms.emplace();
+  config.rooms->map = folder.path("rooms.yaml");
+  Replay replay(config, fitted.poses, odometryOf(survey));
+  readLate([&](pipeline::LocatedScan located) { replay.take(std::move(located)); });
+  replay.finish();
+  EXPECT_TRUE(replay.isGood()) << replay.rightShare();
+  EXPECT_LT(replay.maxDifference(), 0.3);
 }
 
 // A yard with posts, and no wall.

@@ -1,9 +1,14 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "bench/mapping/other_buildings.h"
 #include "mapped_floor.h"
 #include "sightline/config/node.h"
 #include "sightline/mapping/recorded_tracker.h"
+#include "sightline/mapping/replay.h"
+#include "sightline/mapping/wheel_fit.h"
+#include "temporary_folder.h"
 
 namespace sightline::mapping {
 namespace {
@@ -47,17 +52,77 @@ TEST(PolygonRooms, AnObliqueRoomHasTheSidesItHas) {
 class RoundHallTest : public testing::Test {
  protected:
   const FittedBuilding building_{bench::roundHall()};
+  const RoomOutline& hall() const {
+    return *std::max_element(
+        building_.fitted.rooms.begin(), building_.fitted.rooms.end(),
+        [](const RoomOutline& a, const RoomOutline& b) { return a.area() < b.area(); });
+  }
+
+  // Largest error of a path, laid over the true one [m].
+  double pathError(const std::vector<geometry::StampedPose2>& poses) const {
+    FittedRooms fitted;
+    fitted.poses = poses;
+    const geometry::Pose2 T = test::truthFromFitted(fitted, building_.drive);
+    double most = 0.0;
+    for (const auto& pose : poses) {
+      const auto truth = building_.drive.truth.at(pose.stamp)->translation();
+      most = std::max(most, (T * pose.pose.translation() - truth).norm());
+    }
+    return most;
+  }
 };
+
+TEST_F(RoundHallTest, IsDescribedByManySides) {
+  ASSERT_EQ(building_.fitted.rooms.size(), 3U);
+  EXPECT_TRUE(building_.fitted.missing_doors.empty());
+  EXPECT_GT(hall().sides.size(), 10U);
+  EXPECT_NEAR(hall().area(), geometry::kPi * 25.0, 2.0);
+}
+
+// An arc has another direction at each place of the side that stands for it.
+TEST_F(RoundHallTest, SaysHowFarItsSidesAreFromTheWall) {
+  const world::RoomMap map(config::Node::parse(roomsText(building_.fitted), "fitted"));
+  const auto index = map.find(hall().name);
+  ASSERT_TRUE(index);
+  std::size_t bent = 0;
+  for (const world::Wall& wall : map.rooms()[*index].walls) {
+    const bool is_bent =
+        wall.sigma && wall.sigma->position > 0.01 && wall.sigma->direction > geometry::radians(1.0);
+    bent += is_bent ? 1 : 0;
+  }
+  EXPECT_GT(bent, 10U);
+}
 
 // Along a round wall a scan tells two of three coordinates: noise of these is none of the third.
 TEST_F(RoundHallTest, DoesNotLeadDeadReckoningAstray) {
-  FittedRooms reckoned;
-  reckoned.poses = odometryOf(building_.survey);
-  const geometry::Pose2 T = test::truthFromFitted(reckoned, building_.drive);
-  for (const auto& pose : reckoned.poses) {
-    const auto truth = building_.drive.truth.at(pose.stamp)->translation();
-    EXPECT_LT((T * pose.pose.translation() - truth).norm(), 0.3);
-  }
+  EXPECT_LT(pathError(odometryOf(building_.survey)), 0.15);
+}
+
+TEST_F(RoundHallTest, IsDrivenWhereTheAdjustedPathLeads) {
+  EXPECT_LT(pathError(building_.fitted.poses), 0.1);
+}
+
+// Of the robot of the simulation: 2 % of the way, 0.6 degrees a metre.
+TEST_F(RoundHallTest, TellsTheErrorsOfTheWheels) {
+  const auto wheels = fitWheels(building_.survey, building_.fitted.poses);
+  ASSERT_TRUE(wheels);
+  ASSERT_TRUE(wheels->scale.is_known);
+  EXPECT_NEAR(wheels->scale.value, 1.02, 0.006);
+  EXPECT_NEAR(wheels->heading.value, 0.0105, 0.004);
+}
+
+TEST_F(RoundHallTest, KeepsItsRecording) {
+  const test::TemporaryFolder folder;
+  folder.write("rooms.yaml", roomsText(building_.fitted));
+  pipeline::EstimatorsConfig config;
+  config.rooms.emplace();
+  config.rooms->map = folder.path("rooms.yaml");
+  config = withWheels(config, fitWheels(building_.survey, building_.fitted.poses));
+  Replay replay(config, building_.fitted.poses, odometryOf(building_.survey));
+  test::readDrive(building_.drive, {}, /*with_wheels=*/true,
+                  [&](pipeline::LocatedScan located) { replay.take(std::move(located)); });
+  replay.finish();
+  EXPECT_TRUE(replay.isGood()) << replay.rightShare();
 }
 
 // A room of which half of the walls stand behind shelves and tables stays what it is.

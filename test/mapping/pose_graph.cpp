@@ -46,6 +46,23 @@ TEST(PoseGraph, LearnsTheScaleOfTheWheelsFromOneSide) {
   EXPECT_LT(solution.relation_cost.at(0), 1.0);
 }
 
+// Scans tell all of each step: the robot turns by 0.01 rad a metre, and its wheels tell nothing of
+// it.
+TEST(PoseGraph, LearnsHowTheWheelsTurnUnnoticed) {
+  std::vector<KeyScan> keys(1);
+  std::vector<Relation> relations;
+  for (std::size_t i = 1; i <= 200; ++i) {
+    KeyScan key;
+    key.step.mean = {0.25, 0.0, 0.0025};
+    key.wheel_step = Pose2(0.25, 0.0, 0.0);
+    key.T_odom_base = keys.back().T_odom_base * key.step.mean;
+    keys.push_back(key);
+    relations.push_back(exact(i - 1, i, key.step.mean));
+  }
+  const auto solution = solvePoseGraph(keys, relations, posesOfKeys(keys));
+  EXPECT_NEAR(solution.wheel_turn, 0.01, 0.002);
+}
+
 TEST(PoseGraph, AFalseLoopDoesNotBendThePath) {
   const auto keys = squareKeys();
   std::vector<Relation> relations;
@@ -73,7 +90,8 @@ TEST(PosesOf, GoThroughTheKeyScansAndBetweenThem) {
     adjusted.emplace_back(1.05 * key.T_odom_base.translation(), key.T_odom_base.theta());
   }
   const Pose2 halfway(keys[1].T_odom_base.translation() * 1.5, 0.0);
-  const std::vector<PathPoint> path{{1, keys[1].T_odom_base, 1}, {2, halfway, 1}};
+  const std::vector<PathPoint> path{{1, keys[1].T_odom_base, 1, {}, false},
+                                    {2, halfway, 1, {}, false}};
   const auto poses = posesOf(path, keys, adjusted);
   EXPECT_NEAR(poses[0].pose.x(), adjusted[1].x(), 1e-9);
   EXPECT_NEAR(poses[1].pose.x(), 1.5 * adjusted[1].x(), 1e-6);

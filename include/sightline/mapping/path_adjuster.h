@@ -17,6 +17,7 @@ struct AdjustedPath {
   std::vector<geometry::Pose2> keys;  ///< T_map_base of the key scans
   std::vector<Relation> relations;    ///< that were used
   double wheel_scale = 1.0;           ///< true length over that which the wheels tell
+  double wheel_turn = 0.0;            ///< what the wheels do not tell of the heading [rad/m]
   std::size_t loops = 0;              ///< relations between two visits of a place
   std::size_t refused = 0;            ///< such relations that contradict the others, left out
   bool is_exact = false;              ///< whether the poses are known, as of places in a grid

@@ -25,12 +25,13 @@ struct Relation {
 struct GraphSolution {
   std::vector<geometry::Pose2> poses;
   double wheel_scale = 1.0;           ///< true length over that which the wheels tell
+  double wheel_turn = 0.0;            ///< what the wheels do not tell of the heading [rad/m]
   std::vector<double> relation_cost;  ///< squared Mahalanobis distance of each relation
 };
 
 /// Least squares over the poses of the first `poses.size()` key scans: relations from scans,
-/// robust; steps of the wheels with one unknown scale; steps of dead reckoning. The first pose
-/// stays as it is.
+/// robust; steps of the wheels with one unknown scale and one drift of the heading, which alone
+/// hold a path along a round wall; steps of dead reckoning. The first pose stays as it is.
 GraphSolution solvePoseGraph(const std::vector<KeyScan>& keys,
                              const std::vector<Relation>& relations,
                              const std::vector<geometry::Pose2>& poses);

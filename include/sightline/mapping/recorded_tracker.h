@@ -8,7 +8,8 @@
 
 namespace sightline::mapping {
 
-/// The poses of a survey by dead reckoning, T_odom_base.
+/// The poses of a survey by dead reckoning, T_odom_base, in the frame of the wheels as of the first
+/// scan that has any.
 std::vector<geometry::StampedPose2> odometryOf(const Survey& survey);
 
 /// The room tracker over a recording, with odometry where it brings none.
@@ -28,7 +29,10 @@ class RecordedTracker {
   const world::RoomMap& map() { return estimators_.rooms()->map(); }
 
  private:
+  void giveOdometry(pipeline::LocatedScan& located);
+
   std::vector<geometry::StampedPose2> odometry_;
+  geometry::Pose2 T_wheels_reckoned_;
   pipeline::Estimators estimators_;
 };
 

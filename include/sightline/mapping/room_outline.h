@@ -25,6 +25,7 @@ struct SideLine {
   bool is_seen = false;  ///< whether scans tell where it is
   /// Standard deviation of what bends away from the line [m]: sides of a round wall are straight.
   double bend = 0.0;
+  double curvature = 0.0;  ///< of the wall along the line [1/m], positive towards the room
 
   Eigen::Vector2d normal() const { return {std::cos(angle), std::sin(angle)}; }
 };

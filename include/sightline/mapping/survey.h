@@ -23,6 +23,9 @@ struct PathPoint {
   std::int64_t stamp = 0;       ///< [ns]
   geometry::Pose2 T_odom_base;  ///< by dead reckoning
   std::size_t key = 0;          ///< the last key scan up to here
+  /// By the wheels, where they are known.
+  std::optional<geometry::Pose2> T_wheels_base;
+  bool wheels_broke = false;  ///< since the scan before
 };
 
 /// A scan that is kept, as it says something new.

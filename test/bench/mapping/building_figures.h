@@ -10,6 +10,7 @@
 #include "mapped_floor.h"
 #include "mapping/other_buildings.h"
 #include "sightline/mapping/replay.h"
+#include "sightline/mapping/wheel_fit.h"
 #include "temporary_folder.h"
 
 /// Figures of rooms fitted to buildings of which the walls are known, but no rooms.
@@ -111,7 +112,9 @@ class BuildingFigures {
     pipeline::EstimatorsConfig config;
     config.rooms.emplace();
     config.rooms->map = folder.path("rooms.yaml");
-    mapping::Replay replay(config, fitted_.poses, mapping::odometryOf(survey_));
+    const auto wheels = mapping::fitWheels(survey_, fitted_.poses);
+    mapping::Replay replay(mapping::withWheels(config, wheels), fitted_.poses,
+                           mapping::odometryOf(survey_));
     test::readDrive(drive_, {}, /*with_wheels=*/true,
                     [&](pipeline::LocatedScan located) { replay.take(std::move(located)); });
     replay.finish();
