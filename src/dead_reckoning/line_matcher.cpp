@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "sightline/dead_reckoning/motion_gradient.h"
+#include "sightline/dead_reckoning/unbound_axis.h"
 
 namespace sightline::dead_reckoning {
 
@@ -84,7 +85,6 @@ LineResidual lineResidual(const Eigen::Vector2d& translation_odom, const Eigen::
 
 LineMatch LineMatcher::match(const SurfaceScan& surfaces, const Submap& submap, const Pose2& start,
                              const geometry::UncertainPose2& prior, double start_scale) const {
-  const Eigen::Matrix3d prior_information = prior.covariance.inverse();
   LineMatch match;
   match.T_odom_base = start;
   Pairs pairs;
@@ -93,7 +93,7 @@ LineMatch LineMatcher::match(const SurfaceScan& surfaces, const Submap& submap, 
   bool settled = false;
   for (int i = 0; i < kLine.max_rounds && !settled; ++i) {
     findPairs(surfaces.points, submap, match.T_odom_base, scale, pairs);
-    const double moved = descend(prior.mean, prior_information, scale, pairs, match);
+    const double moved = descend(prior, scale, pairs, match);
     settled = scale == finalScale() && moved < kLine.keeps_pairs;
     scale = std::max(finalScale(), kLine.scale_fall * scale);
   }
@@ -122,16 +122,17 @@ void LineMatcher::findPairs(const std::vector<SurfacePoint>& points, const Subma
 }
 
 // Returns how far it went, in units of what counts as settled.
-double LineMatcher::descend(const Pose2& prior, const Eigen::Matrix3d& prior_information,
-                            double scale, const Pairs& pairs, LineMatch& match) const {
+double LineMatcher::descend(const geometry::UncertainPose2& prior, double scale, const Pairs& pairs,
+                            LineMatch& match) const {
   double moved = 0.0;
   double size = 2.0;
   const int most = scale == finalScale() ? kLine.max_steps : kLine.max_first_steps;
   for (int i = 0; i < most && size > 1.0; ++i) {
     const NormalEquations sum = linearize(match.T_odom_base, scale, pairs);
     const RealPart real = realPart(sum);
-    Eigen::Vector3d off = match.T_odom_base.coordinates() - prior.coordinates();
+    Eigen::Vector3d off = match.T_odom_base.coordinates() - prior.mean.coordinates();
     off[2] = geometry::wrapAngle(off[2]);
+    const Eigen::Matrix3d prior_information = prior.covariance.inverse();
     const Eigen::Matrix3d information = real.information + prior_information;
     const Eigen::Vector3d step =
         -information.ldlt().solve(real.of_gradient * sum.gradient + prior_information * off);

@@ -52,7 +52,7 @@ struct MatchTuning {
   double neighbour_heading = 0.1;
   double cost_gap = 0.05;
   // A second explanation that is less expected by more than this costs is no rival: six nats.
-  double surprise_gap = 0.1;
+  double surprise_gap = 0.075;
   // A pose is alone where the reference knows this share of the scan, what it knows is explained
   // and not contradicted to these, and no other explanation costs little more.
   double alone_known = 0.3;
@@ -291,7 +291,8 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const 
       continue;
     }
     const Eigen::Vector3d off = difference(other.match.T_odom_base, outcome.T_odom_base);
-    outcome.extra_covariance += off * off.transpose();
+    const double odds = oddsOf(other.evidence.cost - best.evidence.cost);
+    outcome.extra_covariance += odds / (1.0 + odds) * off * off.transpose();
     if (outcome.state == MatchState::kMatched) outcome.state = MatchState::kAmbiguous;
   }
   return outcome;

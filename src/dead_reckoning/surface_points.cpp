@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "sightline/dead_reckoning/fitted_line.h"
 
 namespace sightline::dead_reckoning {
 
@@ -20,6 +21,8 @@ struct SurfaceTuning {
   double half_length_sigmas = 16.0;
   std::size_t min_half = 3;
   std::size_t max_half = 20;
+  // Points to either side whose mean distance is that of the beams on a surface.
+  std::size_t spacing_points = 4;
   // Neighbours further apart than on a surface seen at this angle [rad] are on two surfaces; the
   // step is what they may be apart besides [m].
   double grazing = 0.087;
@@ -31,6 +34,8 @@ struct SurfaceTuning {
   double straight_sigmas = 1.67;
   double smooth = 0.01;
   double smooth_sigmas = 1.0;
+  // Standard deviations by which that may be exceeded by chance.
+  double smooth_chance = 2.0;
   // Points of a line, and its least extent [m²]. One or six points make no surface finder.
   std::size_t min_points = 3;
   double least_extent = 1e-6;
@@ -59,49 +64,6 @@ Eigen::Vector2d basePoint(const scan::Scan& scan, std::size_t beam, const Pose2&
   const Eigen::Vector2d still = T_base_sensor * scan.point(beam);
   if (!scan.sensorMotion().empty() || offset == 0.0 || twist.isZero()) return still;
   return Pose2::exp(offset * twist) * still;
-}
-
-// Sums over points 0 .. i-1, so that those of any stretch are a difference.
-struct Sums {
-  double x = 0.0;
-  double y = 0.0;
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-
-  Sums with(const Eigen::Vector2d& p) const {
-    return {x + p.x(), y + p.y(), xx + p.x() * p.x(), xy + p.x() * p.y(), yy + p.y() * p.y()};
-  }
-  Sums operator-(const Sums& o) const {
-    return {x - o.x, y - o.y, xx - o.xx, xy - o.xy, yy - o.yy};
-  }
-};
-
-struct Line {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
-  // Mean square of the residuals; infinite before the first fit.
-  double mean_square = std::numeric_limits<double>::infinity();
-  double extent = 0.0;  // sum of squared distances from the centre along the line
-};
-
-Line fit(const Sums& sums, std::size_t count) {
-  const double n = static_cast<double>(count);
-  const Eigen::Vector2d centre(sums.x / n, sums.y / n);
-  const double xx = sums.xx / n - centre.x() * centre.x();
-  const double yy = sums.yy / n - centre.y() * centre.y();
-  const double xy = sums.xy / n - centre.x() * centre.y();
-  const double half = 0.5 * (xx - yy);
-  const double root = std::sqrt(half * half + xy * xy);
-  const double smaller = 0.5 * (xx + yy) - root;
-  // Two equations give the eigenvector: this is the one that does not cancel.
-  const Eigen::Vector2d normal =
-      half > 0.0 ? Eigen::Vector2d(-xy, half + root) : Eigen::Vector2d(root - half, -xy);
-  // Two parameters were taken from the points.
-  const double free = std::max(1.0, n - 2.0);
-  const double larger = xx + yy - smaller;
-  const double mean_square = std::max(0.0, smaller) * n / free;
-  return {centre, normal.normalized(), mean_square, n * larger};
 }
 
 class SurfaceFinder {
@@ -145,8 +107,9 @@ class SurfaceFinder {
     const double before = i > first ? gap(i) : 0.0;
     const double after = i + 1 < end ? gap(i + 1) : 0.0;
     point.reach = std::max(before, after);
-    const auto wanted = static_cast<std::size_t>(half_length_ / std::max(point.reach, 1e-3));
-    Line best;
+    const auto wanted =
+        static_cast<std::size_t>(half_length_ / std::max(spacingAt(i, first, end), 1e-3));
+    FittedLine best;
     for (std::size_t half = std::clamp(wanted, kSurface.min_half, kSurface.max_half); half > 0;
          half /= 2) {
       fitAbout(i, first, end, half, best);
@@ -163,19 +126,35 @@ class SurfaceFinder {
     point.smoothed = point.position + best.normal.dot(best.centre - point.position) * best.normal;
   }
 
+  // Mean distance of the points about one: the distance of two neighbours is that of the beams and
+  // the noise, which on a near wall is the larger.
+  double spacingAt(std::size_t i, std::size_t first, std::size_t end) const {
+    const std::size_t left = std::max(first, i - std::min(i, kSurface.spacing_points));
+    const std::size_t right = std::min(end - 1, i + kSurface.spacing_points);
+    return (points_[right].position - points_[left].position).norm() /
+           static_cast<double>(right - left);
+  }
+
   // Fits `half` neighbours on either side, or twice as many on the better one.
   void fitAbout(std::size_t i, std::size_t first, std::size_t end, std::size_t half,
-                Line& best) const {
+                FittedLine& best) const {
     takeBetter(std::max(first, i - std::min(i, half)), std::min(end, i + half + 1), best);
-    if (best.mean_square < smooth_square_) return;
+    if (isSmooth(best)) return;
     takeBetter(std::max(first, i - std::min(i, 2 * half)), i + 1, best);
     takeBetter(i, std::min(end, i + 2 * half + 1), best);
   }
 
-  void takeBetter(std::size_t left, std::size_t right, Line& best) const {
+  void takeBetter(std::size_t left, std::size_t right, FittedLine& best) const {
     if (right - left < kSurface.min_points) return;
-    const Line line = fit(sums_[right] - sums_[left], right - left);
+    const FittedLine line = fitLine(sums_[right] - sums_[left], right - left);
     if (line.mean_square < best.mean_square) best = line;
+  }
+
+  // Tells whether noise explains how far points are from a line: by chance, a few of them are
+  // nearer to a line of their own, which leads anywhere.
+  bool isSmooth(const FittedLine& line) const {
+    return line.mean_square <
+           smooth_square_ * (1.0 + kSurface.smooth_chance * std::sqrt(2.0 / line.free));
   }
 
   void faceScanner(std::size_t i) {
@@ -215,7 +194,7 @@ class SurfaceFinder {
   double straight_square_;  // [m²]
   double smooth_square_;    // [m²]
   std::vector<SurfacePoint>& points_;
-  std::vector<Sums> sums_;
+  std::vector<PointSums> sums_;
   std::vector<std::size_t> first_;  // first point on the same surface, by point
 };
 

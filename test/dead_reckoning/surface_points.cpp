@@ -25,6 +25,24 @@ TEST(SurfacePoints, NoneOfAPlainCorridorFacesTheRobot) {
   }
 }
 
+// Beams that are nearer to each other on a wall than they err: a few of them lie on a line that
+// leads anywhere.
+TEST(SurfacePoints, ANearWallHasOneDirection) {
+  std::size_t points = 0;
+  std::size_t off = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    test::Viewer viewer(test::plainCorridor(), test::scanner(721, geometry::kPi, 8.0), seed);
+    const SurfaceScan seen =
+        readSurfaces(viewer.look({0.0, 0.3, 0.0}, 0.0), {}, Eigen::Vector3d::Zero());
+    for (const SurfacePoint& point : seen.points) {
+      if (!point.hasNormal() || point.position.norm() > 1.5) continue;
+      ++points;
+      if (std::abs(point.normal.x()) > 0.4) ++off;
+    }
+  }
+  EXPECT_LT(off, points / 100);
+}
+
 TEST(SurfacePoints, ALoneThingDownACorridorFacesTheRobot) {
   world::World world = test::plainCorridor();
   world.add(world::WorldDisc{{18.0, 0.0}, 0.2, {}});

@@ -66,8 +66,8 @@ class LineMatcher {
   double finalScale() const;
   void findPairs(const std::vector<SurfacePoint>& points, const Submap& submap,
                  const geometry::Pose2& pose, double scale, Pairs& pairs) const;
-  double descend(const geometry::Pose2& prior, const Eigen::Matrix3d& prior_information,
-                 double scale, const Pairs& pairs, LineMatch& match) const;
+  double descend(const geometry::UncertainPose2& prior, double scale, const Pairs& pairs,
+                 LineMatch& match) const;
   double weightOf(const Pair& pair, const LineResidual& residual, double scale) const;
   NormalEquations linearize(const geometry::Pose2& pose, double scale, const Pairs& pairs) const;
   static RealPart realPart(const NormalEquations& sum);
