@@ -21,6 +21,8 @@ const char* nameOf(dead_reckoning::MatchState state) {
       return "ambiguous";
     case MatchState::kRecovered:
       return "recovered";
+    case MatchState::kUnbound:
+      return "unbound";
     case MatchState::kFailed:
       break;
   }

@@ -40,8 +40,8 @@ std::string OdometryOutput::write(const pipeline::Estimates& estimates) {
 
 std::vector<std::string> OdometryOutput::summary() const {
   const std::size_t poses = std::accumulate(states_.begin(), states_.end(), std::size_t{0});
-  const std::size_t flagged =
-      count(MatchState::kAmbiguous) + count(MatchState::kRecovered) + count(MatchState::kFailed);
+  const std::size_t flagged = count(MatchState::kAmbiguous) + count(MatchState::kRecovered) +
+                              count(MatchState::kFailed) + count(MatchState::kUnbound);
   std::vector<std::string> lines{fmt::format(
       "odometry: {} of {} scans have a pose, {} of them flagged, {} with the wheels as prior",
       poses, scans_, flagged, with_wheels_)};

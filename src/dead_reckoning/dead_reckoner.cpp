@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/LU>
-
+#include "sightline/dead_reckoning/match_gain.h"
 #include "sightline/dead_reckoning/motion_gradient.h"
+#include "sightline/dead_reckoning/unbound_axis.h"
 
 namespace sightline::dead_reckoning {
 
@@ -48,13 +48,6 @@ bool isLonger(const Eigen::Vector3d& moved) {
 
 bool isFound(const Match& match) {
   return match.outcome.state != MatchState::kFailed && match.outcome.state != MatchState::kInitial;
-}
-
-// Covariance that the noise of the motion makes of a pose merged of prediction and match.
-Eigen::Matrix3d motionCovariance(const UncertainPose2& predicted, const MatchOutcome& outcome) {
-  if (outcome.motion_gradient.isZero(0.0)) return Eigen::Matrix3d::Zero();
-  const Eigen::Matrix3d merged = (predicted.covariance.inverse() + outcome.information).inverse();
-  return merged * outcome.motion_gradient * merged.transpose();
 }
 
 }  // namespace
@@ -156,6 +149,9 @@ void DeadReckoner::locate(const scan::Scan& scan, const Pose2& T_base_sensor, Ma
     match.outcome.state = MatchState::kFailed;
   }
   match.motion_covariance = motionCovariance(predicted, match.outcome);
+  if (!match.prediction.by_twist.isZero(0.0)) {
+    match.measured = measuredShares(predicted, match.outcome);
+  }
 }
 
 void DeadReckoner::correctSweep(const scan::Scan& scan, const Pose2& T_base_sensor,
@@ -202,6 +198,8 @@ DeadReckoningUpdate DeadReckoner::commit(const Match& match) {
   if (!match.is_first) {
     update.state = match.outcome.state;
     update.step = advance(match);
+    const bool is_loose = isLoose(update.step.covariance);
+    if (is_loose && update.state == MatchState::kMatched) update.state = MatchState::kUnbound;
   }
   stamp_ = match.stamp;
   time_ += match.elapsed;
@@ -243,7 +241,7 @@ void DeadReckoner::follow(const Match& match) {
   if (own != nullptr && match.outcome.state != MatchState::kInitial) {
     const Eigen::Vector3d twist = own->stepTo(T_odom_base_).log() / *match.since_own;
     const bool is_motion = match.outcome.state == MatchState::kMatched;  // and no jump back
-    if (is_motion) habit_.learn(own->twist, twist, *match.since_own);
+    if (is_motion) habit_.learn(own->twist, twist, *match.since_own, match.measured);
     acceleration = own->accelerationTo(twist, *match.since_own);
     twist_ = twist;
     moving_ = true;

@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 
+#include "sightline/dead_reckoning/unbound_axis.h"
+
 namespace sightline::dead_reckoning {
 
 namespace {
@@ -84,7 +86,8 @@ Eigen::Matrix3d ErrorState::advance(const Pose2& T_odom_base, const StepPredicti
                                     const PoseMeasurement& measurement) {
   makeRoomFor(interval.scanner);
   const Derivatives next(T_odom_base, prediction);
-  const Eigen::Matrix3d before = predicted(T_odom_base, prediction).inverse();
+  const Eigen::Matrix3d before =
+      turnedToUnbound(predicted(T_odom_base, prediction), measurement.information).inverse();
   const Eigen::Matrix3d after = (before + measurement.information).inverse();
   const Eigen::Matrix3d gain = after * measurement.information;
   const Eigen::Matrix3d rest = after * before;

@@ -22,7 +22,7 @@ struct HistogramTuning {
   double same_heading = 0.02;
   // Error of a point [m]: the translation is a multiple of the resolution, the heading of a bin,
   // and all points share their errors, which makes it much larger than that of one.
-  double point_sigma = 0.3;
+  double point_sigma = 0.2;
   // Half side of the square that the field is drawn for, and of the largest that is searched [m].
   double widest = 1.28;
   double widest_search = 24.0;

@@ -10,7 +10,7 @@ namespace {
 constexpr struct {
   // Change of velocity, and turn rate, before anything is known, over what the carrier is capable
   // of: it stands at first, but may turn on the spot.
-  double first_change = 0.125;
+  double first_change = 0.25;
   double first_turn_rate = 0.25;
   // Least of the change of velocity and of the speed: of translation [m/s², m/s] and of heading
   // [rad/s², rad/s].
@@ -28,9 +28,10 @@ Eigen::Vector2d sizeOf(const Eigen::Vector3d& twist) {
   return {twist.head<2>().norm(), std::abs(twist.z())};
 }
 
-void follow(double value, double scans, double& rms) {
-  const double faded = rms * rms + (value * value - rms * rms) / scans;
-  rms = std::max(value, std::sqrt(faded));
+// What was not measured is learned neither as calm nor as surprise.
+void follow(double value, double measured, double scans, double& rms) {
+  const double faded = rms * rms + measured * (value * value - rms * rms) / scans;
+  rms = std::max(measured * value, std::sqrt(faded));
 }
 
 }  // namespace
@@ -41,12 +42,12 @@ void MotionHabit::reset() {
 }
 
 void MotionHabit::learn(const Eigen::Vector3d& expected, const Eigen::Vector3d& twist,
-                        double elapsed) {
+                        double elapsed, const Eigen::Vector2d& measured) {
   const Eigen::Vector2d change = sizeOf(twist - expected) / elapsed;
   const Eigen::Vector2d speed = sizeOf(twist);
   for (int i = 0; i < 2; ++i) {
-    follow(change[i], kHabit.change_fades, change_[i]);
-    follow(speed[i], kHabit.speed_fades, speed_[i]);
+    follow(change[i], measured[i], kHabit.change_fades, change_[i]);
+    follow(speed[i], measured[i], kHabit.speed_fades, speed_[i]);
   }
 }
 

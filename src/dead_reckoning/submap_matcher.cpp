@@ -52,7 +52,7 @@ struct MatchTuning {
   double neighbour_heading = 0.1;
   double cost_gap = 0.05;
   // A second explanation that is less expected by more than this costs is no rival: six nats.
-  double surprise_gap = 0.1;
+  double surprise_gap = 0.075;
   // A pose is alone where the reference knows this share of the scan, what it knows is explained
   // and not contradicted to these, and no other explanation costs little more.
   double alone_known = 0.3;
@@ -285,13 +285,12 @@ MatchOutcome SubmapMatcher::conclude(std::vector<Hypothesis>& hypotheses, const 
   const bool is_taken = isClear(best, predicted) || isAlone(hypotheses);
   outcome.state = is_taken ? MatchState::kMatched : MatchState::kFailed;
   for (const Hypothesis& other : hypotheses) {
-    if (other.evidence.cost > best.evidence.cost + kMatch.cost_gap ||
-        other.cost > best.cost + kMatch.surprise_gap ||
-        !isDistinct(other.match.T_odom_base, outcome.T_odom_base)) {
-      continue;
-    }
+    const bool is_rival = other.evidence.cost <= best.evidence.cost + kMatch.cost_gap &&
+                          other.cost <= best.cost + kMatch.surprise_gap;
+    if (!is_rival || !isDistinct(other.match.T_odom_base, outcome.T_odom_base)) continue;
     const Eigen::Vector3d off = difference(other.match.T_odom_base, outcome.T_odom_base);
-    outcome.extra_covariance += off * off.transpose();
+    outcome.extra_covariance +=
+        probabilityBeside(other.evidence.cost - best.evidence.cost) * off * off.transpose();
     if (outcome.state == MatchState::kMatched) outcome.state = MatchState::kAmbiguous;
   }
   return outcome;

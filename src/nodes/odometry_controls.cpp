@@ -41,9 +41,9 @@ bool OdometryControls::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::R
 
 void OdometryControls::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  const std::size_t flagged = output_.count(MatchState::kAmbiguous) +
-                              output_.count(MatchState::kRecovered) +
-                              output_.count(MatchState::kFailed);
+  const std::size_t flagged =
+      output_.count(MatchState::kAmbiguous) + output_.count(MatchState::kRecovered) +
+      output_.count(MatchState::kFailed) + output_.count(MatchState::kUnbound);
   if (last_.stamp == 0) {
     status.summary(DiagnosticStatus::WARN, "no scan used yet");
   } else if (flagged == flagged_before_) {
@@ -54,8 +54,9 @@ void OdometryControls::report(diagnostic_updater::DiagnosticStatusWrapper& statu
     status.summary(DiagnosticStatus::WARN, "some of the last scans were doubtful");
   }
   flagged_before_ = flagged;
-  for (const MatchState state : {MatchState::kInitial, MatchState::kMatched, MatchState::kAmbiguous,
-                                 MatchState::kRecovered, MatchState::kFailed}) {
+  for (const MatchState state :
+       {MatchState::kInitial, MatchState::kMatched, MatchState::kAmbiguous, MatchState::kRecovered,
+        MatchState::kFailed, MatchState::kUnbound}) {
     status.add(bridge::nameOf(state), output_.count(state));
   }
   const auto& floor = odometry_.beamsOnFloor();

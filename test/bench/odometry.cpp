@@ -1,8 +1,10 @@
 // Figures of dead reckoning by scans, one a line: `name value unit`; lines that start with #
-// explain. What each figure means is said in the headers under odometry/.
+// explain. What each figure means is said in the headers under odometry/. With --plots DIR, the
+// pictures of odometry/plots.h come first.
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include "odometry/consistency.h"
 #include "odometry/long_way.h"
 #include "odometry/node.h"
+#include "odometry/plots.h"
 #include "odometry/recordings.h"
 #include "odometry/searcher.h"
 
@@ -38,7 +41,8 @@ void measureData(const std::filesystem::path& folder) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc == 3 && std::string_view(argv[1]) == "--plots") bench::ThesisPlots(argv[2]).draw();
   const char* data = std::getenv("SIGHTLINE_DATA");
   const std::filesystem::path folder = data ? data : "";
   if (data && std::filesystem::exists(folder / "fr079.clf.gz")) {

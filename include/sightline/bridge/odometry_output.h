@@ -35,7 +35,7 @@ class OdometryOutput {
   std::optional<std::int64_t> sent_;  // stamp of the last transform [ns]
   Port<nav_msgs::Odometry> odometry_;
   Port<tf2_msgs::TFMessage> transforms_;
-  std::array<std::size_t, 5> states_{};  // how many scans each state had
+  std::array<std::size_t, 6> states_{};  // how many scans each state had
   std::size_t scans_ = 0;
   std::size_t left_out_ = 0;
   ScansByReason without_pose_;

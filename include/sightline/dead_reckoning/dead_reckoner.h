@@ -54,8 +54,10 @@ struct Match {
   StepPrediction prediction;        ///< of the step from the scan before
   SurfaceScan surfaces;             ///< corrected by the motion that was found
   MatchOutcome outcome;             ///< a default one where there is no reference
-  geometry::Pose2 step;             ///< T_before_now; the prediction's where the match failed
-  geometry::Pose2 T_odom_base;      ///< at the stamp, once committed
+  /// Shares of translation and heading that are known by more than the velocity before, [0, 1].
+  Eigen::Vector2d measured = Eigen::Vector2d::Ones();
+  geometry::Pose2 step;         ///< T_before_now; the prediction's where the match failed
+  geometry::Pose2 T_odom_base;  ///< at the stamp, once committed
   /// Covariance of what the noise of the sensor's motion makes of the pose, or of the surfaces
   /// where the match failed.
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();

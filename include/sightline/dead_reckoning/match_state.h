@@ -13,6 +13,9 @@ enum class MatchState : std::uint8_t {
       2,  ///< several poses explain the scan as well as this one, or other sensors contradict
   kRecovered = 3,  ///< matched, but the pose before was bridged and turns out to have been wrong
   kFailed = 4,     ///< no pose explains the scan: bridged by the prior
+  /// Matched, but along some direction next to nothing shows the motion, as in a bare corridor: it
+  /// went on there as predicted, and may be far off.
+  kUnbound = 5,
 };
 
 }  // namespace sightline::dead_reckoning

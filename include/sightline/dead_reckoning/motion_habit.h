@@ -16,7 +16,11 @@ class MotionHabit {
 
   void reset();
   /// Takes the twist [m/s, m/s, rad/s] that was found, and the one that was expected.
-  void learn(const Eigen::Vector3d& expected, const Eigen::Vector3d& twist, double elapsed);
+  /// @param measured  shares of translation and heading that were measured and not predicted,
+  ///                  [0, 1]: along a bare corridor the twist is found to be what was expected,
+  ///                  which is no sign of a carrier that goes on evenly
+  void learn(const Eigen::Vector3d& expected, const Eigen::Vector3d& twist, double elapsed,
+             const Eigen::Vector2d& measured = Eigen::Vector2d::Ones());
 
   /// What the carrier is expected to do: no more than it is capable of.
   CarrierConfig expected() const;

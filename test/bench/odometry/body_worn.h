@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -39,6 +40,13 @@ struct BodyWornScore {
   long floor_found = 0;
   long floor_missed = 0;
   long floor_mistaken = 0;
+};
+
+/// A scan of a walk, with the truth.
+struct BodyWornView {
+  scan::Scan scan;
+  geometry::Pose2 T_map_base;
+  std::vector<bool> on_floor;  // by beam; ceiling counts, too
 };
 
 /// One walk with its score.
@@ -78,6 +86,22 @@ class BodyWornWalk {
     ++score.walks;
     score.drift += error.translation().norm() / way_;
     score.heading += std::abs(error.theta());
+  }
+
+  /// The scans of the whole way.
+  std::vector<BodyWornView> look() {
+    std::vector<BodyWornView> views;
+    while (!hasArrived()) {
+      for (auto& sweep : simulation_.step().sweeps) {
+        BodyWornView view{std::move(sweep.scan), {}, {}};
+        view.T_map_base = simulation_.carrier().T_map_base(view.scan.stamp);
+        for (std::size_t i = 0; i < view.scan.beams(); ++i) {
+          view.on_floor.push_back(view.scan.isValid(i) && endsOnFloor(view.scan, i));
+        }
+        views.push_back(std::move(view));
+      }
+    }
+    return views;
   }
 
  private:
