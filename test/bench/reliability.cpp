@@ -2,9 +2,10 @@
 //
 // reliability.inputs.tried: recordings of a robot whose messages have one fault each, of the kinds
 // that reports about other packages tell of. reliability.inputs.survived: those on which `offline`
-// neither crashes, nor hangs, nor is silently wrong: from 8 s on a room pose that is called tracking
-// is within 10 cm and 3 degrees, odometry of which no scan is flagged ends within that, nothing is
-// NaN, and estimators without a pose for half of the scans end with another status than 0.
+// neither crashes, nor hangs, nor is silently wrong: from 8 s on a room pose that is called
+// tracking is within 10 cm and 3 degrees, odometry of which no scan is flagged ends within that,
+// nothing is NaN, and estimators without a pose for half of the scans end with another status than
+// 0.
 //
 // usage: bench_reliability [PART OF AN INPUT'S NAME]
 #include <fmt/format.h>
