@@ -22,10 +22,8 @@ struct EvidenceTuning {
   double looked_through_cost = 0.5;
   // Residuals beyond this, in standard deviations, have next to no weight in the match.
   double outlier = 4.0;
-  // Points over which errors of the reference hang together, as its surfaces are fitted over some
-  // twenty to either side; and the most points that are believed to count as one.
-  std::size_t shared_over = 20;
-  double most_shared = 19.0;
+  // Largest correlation of neighbours that is believed.
+  double most_correlation = 0.9;
 };
 constexpr EvidenceTuning kEvidence{};
 
@@ -71,21 +69,6 @@ double lookedThrough(const Pose2& T_odom_base, const RangeProfile& profile, std:
   return count;
 }
 
-bool counts(double residual) {
-  return std::abs(residual) < kEvidence.outlier;
-}
-
-// Sum of the residuals before one on the same stretch, the further away the less (Bartlett).
-double sumBefore(const std::vector<double>& residuals, std::size_t i) {
-  double sum = 0.0;
-  const auto most = std::min(i, kEvidence.shared_over);
-  for (std::size_t lag = 1; lag <= most && counts(residuals[i - lag]); ++lag) {
-    const double share = static_cast<double>(lag) / static_cast<double>(kEvidence.shared_over + 1);
-    sum += (1.0 - share) * residuals[i - lag];
-  }
-  return sum;
-}
-
 }  // namespace
 
 Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeProfile& profile,
@@ -114,16 +97,19 @@ ResidualStatistics residualStatistics(const LineMatch& match) {
   double count = 0.0;
   double squares = 0.0;
   double products = 0.0;
-  const std::vector<double>& residuals = match.residuals;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (!counts(residuals[i])) continue;
+  double before = 0.0;
+  for (const double residual : match.residuals) {
+    if (!(std::abs(residual) < kEvidence.outlier)) {
+      before = 0.0;
+      continue;
+    }
     count += 1.0;
-    squares += residuals[i] * residuals[i];
-    products += residuals[i] * sumBefore(residuals, i);
+    squares += residual * residual;
+    products += residual * before;
+    before = residual;
   }
   if (count < 4.0 || squares == 0.0) return {};
-  return {squares / (count - 3.0),
-          std::clamp(1.0 + 2.0 * products / squares, 1.0, kEvidence.most_shared)};
+  return {squares / (count - 3.0), std::clamp(products / squares, 0.0, kEvidence.most_correlation)};
 }
 
 }  // namespace sightline::dead_reckoning

@@ -78,7 +78,7 @@ TEST(ResidualStatistics, OfIndependentResiduals) {
   const ResidualStatistics statistics = residualStatistics(matchWith(residuals));
   // A few beyond four standard deviations are left out.
   EXPECT_NEAR(statistics.variance, 1.44, 0.05);
-  EXPECT_NEAR(statistics.shared, 1.0, 0.1);
+  EXPECT_NEAR(statistics.correlation, 0.0, 0.03);
 }
 
 TEST(ResidualStatistics, OfNeighboursThatShareTheirErrors) {
@@ -89,25 +89,10 @@ TEST(ResidualStatistics, OfNeighboursThatShareTheirErrors) {
   double before = 0.0;
   for (double& residual : residuals) residual = before = kCorrelation * before + normal(random);
   const ResidualStatistics statistics = residualStatistics(matchWith(residuals));
+  EXPECT_NEAR(statistics.correlation, kCorrelation, 0.03);
   // The mean of n of them varies as that of n (1 - r)/(1 + r) independent ones.
   EXPECT_NEAR(statistics.factor(), 4.0, 0.4);
   EXPECT_NEAR(statistics.common(), 0.75, 0.03);
-}
-
-TEST(ResidualStatistics, OfManyPointsThatShareALittle) {
-  // Each group of 40 points has an error of its own, a fifth of the noise of a point: neighbours
-  // hardly tell, the sums do.
-  constexpr double kShared = 0.2;
-  std::mt19937_64 random(7);
-  std::normal_distribution<double> normal(0.0, 1.0);
-  std::vector<double> residuals(40000);
-  double shared = 0.0;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (i % 40 == 0) shared = kShared * normal(random);
-    residuals[i] = shared + normal(random);
-  }
-  // Half of the 39 others count: by how near they are, and as far as they are of the same group.
-  EXPECT_NEAR(residualStatistics(matchWith(residuals)).shared, 1.6, 0.2);
 }
 
 TEST(ResidualStatistics, OfHardlyAnyResidualsAreWhatWasExpected) {
@@ -118,7 +103,7 @@ TEST(ResidualStatistics, OfHardlyAnyResidualsAreWhatWasExpected) {
                                 {0.0, 0.0, 0.0, 0.0, 0.0}}) {
     const ResidualStatistics statistics = residualStatistics(matchWith(residuals));
     EXPECT_EQ(statistics.variance, 1.0);
-    EXPECT_EQ(statistics.shared, 1.0);
+    EXPECT_EQ(statistics.correlation, 0.0);
   }
 }
 

@@ -26,15 +26,14 @@ Evidence weigh(const LineMatch& match, const SurfaceScan& surfaces, const RangeP
 
 /// Statistics of the residuals of a match that its covariance depends on.
 struct ResidualStatistics {
-  double variance = 1.0;  ///< in units of what was expected
-  /// Number of points that count as one, at least 1: they share errors of the reference, little
-  /// each but over many points, 1 + 2 Σ r_k at a correlation r_k of points k beams apart.
-  double shared = 1.0;
+  double variance = 1.0;     ///< in units of what was expected
+  double correlation = 0.0;  ///< of neighbours, [0, 1): they share errors of the reference
 
-  /// Factor by which the covariance of the match is larger than its information says.
-  double factor() const { return variance * shared; }
+  /// Factor by which the covariance of the match is larger than its information says: n neighbours
+  /// count as n (1 − r)/(1 + r) at a correlation r.
+  double factor() const { return variance * (1.0 + correlation) / (1.0 - correlation); }
   /// The share of that which is due to the reference.
-  double common() const { return 1.0 - 1.0 / shared; }
+  double common() const { return 2.0 * correlation / (1.0 + correlation); }
 };
 
 ResidualStatistics residualStatistics(const LineMatch& match);
